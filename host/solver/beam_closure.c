@@ -14,7 +14,7 @@ typedef struct brc_beam_closure beam_closure;
 
 bool brc_wants_beam_closure(const brc_wants *w)
 {
-    return w->scene->has_fracture && brc_wants_beams(w) && (brc_scene_shuts(w->scene) || w->softens);
+    return w->scene->has_fracture && brc_wants_spheres(w) && (brc_scene_shuts(w->scene) || w->softens);
 }
 static bool softens(const brc_wants *w)
 {

@@ -20,7 +20,7 @@ typedef struct brc_beam_softening beam_softening;
 
 static bool softens(const brc_wants *w)
 {
-    return w->scene->has_fracture && brc_wants_beams(w) && w->softens;
+    return w->scene->has_fracture && brc_wants_spheres(w) && w->softens;
 }
 
 #define AT(member) BRC_FIELD_AT(beam_softening, member)

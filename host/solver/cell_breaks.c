@@ -139,19 +139,19 @@ cleanup:
 
 static bool breaks(const brc_wants *w)
 {
-    return w->scene->has_fracture && !brc_wants_beams(w);
+    return w->scene->has_fracture && brc_wants_cells(w);
 }
 static bool dlsm_by_bond(const brc_wants *w)
 {
-    return brc_wants_dlsm(w) && !w->by_element;
+    return brc_wants_deforming(w) && !w->by_element;
 }
 static bool dlsm_by_element(const brc_wants *w)
 {
-    return brc_wants_dlsm(w) && w->by_element;
+    return brc_wants_deforming(w) && w->by_element;
 }
 static bool published_by_bond(const brc_wants *w)
 {
-    return brc_wants_published(w) && !w->by_element;
+    return brc_wants_rigid_cells(w) && !w->by_element;
 }
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
@@ -165,15 +165,16 @@ static const brc_field_row rows[] = {
     {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa", BRC_NOT_KEPT},
     {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa",
      BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
-    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
+    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
     {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-", BRC_NOT_KEPT},
-    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stiffest), "supports", "1/m^2", BRC_NOT_KEPT},
+    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(stiffest), "supports", "1/m^2",
+     BRC_NOT_KEPT},
     {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-", BRC_NOT_KEPT},
     {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-", BRC_NOT_KEPT},
     {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-", BRC_NOT_KEPT},
     {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-", BRC_NOT_KEPT},
     {"own_branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
-    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_published, AT(spanned), "supports", "-",
+    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(spanned), "supports", "-",
      BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
     {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-", BRC_NOT_KEPT},
 };
@@ -302,7 +303,7 @@ static brc_status kick(brc_simulation *s, double by)
     const int32_t n = s->layout->n_rows;
     if (by == 0) return BRC_OK;
     BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)}));
-    if (brc_turns(s))
+    if (s->model->turns)
         BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)},
                         {"extra", BRC_STATE(0)}));
     return BRC_OK;

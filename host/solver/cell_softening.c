@@ -45,7 +45,7 @@ typedef struct brc_softening_faces softening_faces;
 
 static bool softens(const brc_wants *w)
 {
-    return w->scene->has_fracture && !brc_wants_beams(w) && w->softens;
+    return w->scene->has_fracture && brc_wants_cells(w) && w->softens;
 }
 
 static bool slides(const brc_wants *w)

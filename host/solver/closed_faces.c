@@ -77,7 +77,7 @@ static brc_status upload_next(brc_simulation *s, closed_faces *f)
 
 static bool shuts(const brc_wants *w)
 {
-    return brc_scene_shuts(w->scene) && brc_wants_dlsm(w) && !w->softens;
+    return brc_scene_shuts(w->scene) && brc_wants_deforming(w) && !w->softens;
 }
 static bool rubs(const brc_wants *w)
 {

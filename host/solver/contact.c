@@ -17,7 +17,7 @@ static bool sleeps(const brc_simulation *s)
 static brc_status make_passes(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const bool spheres = brc_is_beams(s), pieces = c->n_pieces > 0;
+    const bool spheres = brc_has_spheres(s), pieces = c->n_pieces > 0;
     brc_contact_scopes in;
     brc_contact_scopes_make(s, &in);
     const brc_pass_wanted of_pairs[] = {{&c->pass.spheres, "contact_spheres", "whole dt n", !spheres},
@@ -54,9 +54,9 @@ brc_status brc_contact_create(brc_simulation *s)
     if (!s->scene->has_contact) return BRC_OK;
     tell_if_never(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &s->contact, 1, "contact"));
-    s->contact->affine = brc_is_dlsm(s);
+    s->contact->affine = s->model->surface == BRC_SURFACE_AFFINE;
     s->contact->width = s->contact->affine ? 9 : 3;
-    s->contact->pose = s->contact->affine ? 1 : brc_is_beams(s) ? 0 : 2;
+    s->contact->pose = (int)s->model->surface;
     brc_contact_check_speed(s);
     BRC_TRY(brc_contact_setup(s));
     s->contact->is_linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
@@ -177,7 +177,7 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
     const int32_t n = s->layout->n_rows;
     const int32_t n_items = whole ? l->n_pairs : c->n_todo;
     if (n_items == 0) return BRC_OK;
-    if (brc_is_beams(s))
+    if (brc_has_spheres(s))
         return BRC_RUN(c->pass.spheres, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"dt", BRC_STATE(dt)},
                        {"n", BRC_INT(n)});
     return BRC_RUN(c->pass.cells, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"broke", BRC_INT(broke ? 1 : 0)},
@@ -344,7 +344,7 @@ static double stiffest(const brc_simulation *s, int64_t e, int32_t other)
     const double *law = brc_contact_law_of(s, s->material_of_element[e], other);
     const bool linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
     const double rub = law[4] > 0 ? law[3] : 0;
-    if (brc_is_beams(s)) { /* a sphere has R^2 / I = 5 / (2 m) */
+    if (brc_has_spheres(s)) { /* a sphere has R^2 / I = 5 / (2 m) */
         const double k = law[2] > 0 ? law[2]
                          : linear   ? law[0] * d->radius[e]
                                     : 2 * law[0] * d->radius[e] * sqrt(sphere_depth);
@@ -392,7 +392,7 @@ static double fastest_striker(const brc_simulation *s)
         double stiffness = 0, damping = 0; /* of unit area: K [N/m^3], n m' b^2 [kg/m^2] */
         if (striker->motion != BRC_STRIKER_FREE) continue;
         for (int64_t e = 0; e < d->n_elements; ++e) {
-            const double size = brc_is_beams(s) ? 2 * d->radius[e] : cbrt(d->volume[e]),
+            const double size = brc_has_spheres(s) ? 2 * d->radius[e] : cbrt(d->volume[e]),
                          share = brc_contact_law_of(s, s->material_of_element[e], striker->material)[5];
             const double own = d->volume[e] * s->elastic[s->material_of_element[e]].density;
             stiffness = fmax(stiffness, stiffest(s, e, striker->material) / (size * size));

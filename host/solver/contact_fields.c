@@ -15,13 +15,9 @@ static bool contact(const brc_wants *w)
 {
     return w->scene->has_contact;
 }
-static bool turning(const brc_wants *w)
-{
-    return !brc_wants_beams(w);
-} /* cells stand one way or another */
 static bool detaching(const brc_wants *w)
 {
-    return brc_wants_dlsm(w) && w->loose;
+    return brc_wants_deforming(w) && w->loose;
 }
 
 static int64_t each_piece(const brc_wants *w)
@@ -49,15 +45,15 @@ static int64_t each_law(const brc_wants *w)
  * the loops of V corners and F faces have 2 (V + F - 2) numbers. */
 static int64_t cell_corners(const brc_wants *w)
 {
-    return brc_wants_beams(w) ? 0 : w->domain->vertex_start[w->domain->n_elements];
+    return brc_wants_spheres(w) ? 0 : w->domain->vertex_start[w->domain->n_elements];
 }
 static int64_t cell_faces(const brc_wants *w)
 {
-    return brc_wants_beams(w) ? 0 : w->domain->n_half_edges + w->domain->n_free_faces;
+    return brc_wants_spheres(w) ? 0 : w->domain->n_half_edges + w->domain->n_free_faces;
 }
 static int64_t cell_loops(const brc_wants *w)
 {
-    return brc_wants_beams(w) ? 0 : 2 * (cell_corners(w) + cell_faces(w) - 2 * w->domain->n_elements);
+    return brc_wants_spheres(w) ? 0 : 2 * (cell_corners(w) + cell_faces(w) - 2 * w->domain->n_elements);
 }
 static int64_t each_corner(const brc_wants *w)
 {
@@ -137,7 +133,7 @@ static const brc_field_row rows[] = {
      BRC_KEPT("contact.way", BRC_KEEP_ALL)},
     {"built", brc_each_row, 4, BRC_FIELD_STATE, NULL, AT(built), "places of the last search", "m",
      BRC_KEPT("contact.built", BRC_KEEP_ALL)},
-    {"posed", brc_each_row, 9, BRC_FIELD_STATE, turning, AT(posed), "poses of the last search", "-",
+    {"posed", brc_each_row, 9, BRC_FIELD_STATE, brc_wants_cells, AT(posed), "poses of the last search", "-",
      BRC_KEPT("contact.posed", BRC_KEEP_ALL)},
     {"clear", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(clear), "ways to pieces of strikers", "m", BRC_NOT_KEPT},
     {"moved", each_survey, BRC_CONTACT_MOVED, BRC_FIELD_STATE, NULL, AT(moved), "moves since the last search", "-",
@@ -221,7 +217,7 @@ BRC_FIELD_TABLE(brc_contact_old_listed_fields, "list of exposed elements before"
 
 static int64_t each_result(const brc_wants *w)
 {
-    return w->n_listed * (BRC_CONTACT_RESULT + 2 * (brc_wants_dlsm(w) ? 9 : 3));
+    return w->n_listed * (BRC_CONTACT_RESULT + 2 * (brc_wants_deforming(w) ? 9 : 3));
 }
 
 static const brc_field_row entry_rows[] = {

@@ -121,7 +121,7 @@ brc_status brc_contact_shapes(brc_simulation *s)
     brc_contact_state *c = s->contact;
     brc_convex cells = {0}, none = {0};
     brc_status status = BRC_OK;
-    if (!brc_is_beams(s)) BRC_TRY_OR(cleanup, brc_convex_of_domain(s->context, s->domain, 0, &cells));
+    if (!brc_has_spheres(s)) BRC_TRY_OR(cleanup, brc_convex_of_domain(s->context, s->domain, 0, &cells));
     if (cells.n && c->n_pieces) BRC_TRY_OR(cleanup, brc_strikers_check_edges(s, &cells));
     BRC_TRY_OR(cleanup, upload_shapes(s, &cells, c->n_pieces ? &s->strikers->convex : &none));
     BRC_TRY_OR(cleanup, upload_pieces(s));

@@ -25,7 +25,7 @@ static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
     BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)}));
     if (s->strikers) BRC_TRY(brc_strikers_advance(s, kick, drift, 0, false));
     BRC_TRY(brc_contact_turn(s, kick, drift, 0));
-    if (!brc_turns(s)) return BRC_OK;
+    if (!s->model->turns) return BRC_OK;
     return BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)},
                    {"extra", BRC_STATE(0)});
 }
@@ -93,7 +93,7 @@ static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double
                     {"lost", BRC_BUF(s->lost_numerical)}));
     if (s->strikers) BRC_TRY(brc_strikers_advance(s, dt, dt, (stage->phi - 1) * dt, true));
     BRC_TRY(brc_contact_turn(s, dt, dt, (stage->phi - 1) * dt * dt));
-    if (brc_turns(s)) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
+    if (s->model->turns) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
         BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(dt)}, {"drift", BRC_STATE(dt)},
                         {"extra", BRC_STATE((stage->phi - 1) * dt * dt)}));
     if (stage->mass_damping > 0) BRC_TRY(drag(s, stage, dt));

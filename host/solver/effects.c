@@ -3,6 +3,25 @@
 #include "cell_softening.h"
 #include "noise_damping.h"
 
+static void list(brc_simulation *s, const char *name, bool in)
+{
+    const char **next = in ? s->effects_in : s->effects_out;
+    while (*next)
+        ++next;
+    *next = name;
+}
+
+static void list_models(brc_simulation *s)
+{
+    int n;
+    const brc_bond_model *const *models = brc_bond_models(&n);
+    for (int m = 0; m < n; ++m)
+        for (int k = 0; k < 2 && models[m]->effect[k].name; ++k) {
+            const brc_model_effect *e = &models[m]->effect[k];
+            list(s, e->name, models[m] == s->model && (!e->in || e->in(s->scene)));
+        }
+}
+
 void brc_effects_list(brc_simulation *s)
 {
     const brc_scene *scene = s->scene;
@@ -23,15 +42,10 @@ void brc_effects_list(brc_simulation *s)
             turned = turned || kind == BRC_LOAD_ELEMENT_ROTATION;
         }
     }
-    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s);
     const struct {
         const char *name;
         bool in;
-    } effects[] = {{"conservative elasticity (dlsm)", dlsm},
-                   {"compaction", dlsm && scene->model.compaction && scene->model.beta != 0},
-                   {"published elasticity and element rotations (dlsm-published)", published},
-                   {"beams and element rotations (cbm)", brc_is_beams(s)},
-                   {"several materials", brc_device_has_many_materials(s->device)},
+    } effects[] = {{"several materials", brc_device_has_many_materials(s->device)},
                    {"prescribed faces", held},
                    {"tractions", traction},
                    {"imposed elements", imposed},
@@ -47,13 +61,9 @@ void brc_effects_list(brc_simulation *s)
                    {"fracture energy", brc_softening_is_on(s) || brc_beam_softening_is_on(s)},
                    {"walls and strikers", s->strikers != NULL},
                    {"contact", s->contact != NULL}};
-    int in = 0, out = 0;
-    for (size_t i = 0; i < sizeof effects / sizeof *effects; ++i) {
-        if (effects[i].in)
-            s->effects_in[in++] = effects[i].name;
-        else
-            s->effects_out[out++] = effects[i].name;
-    }
+    list_models(s);
+    for (size_t i = 0; i < sizeof effects / sizeof *effects; ++i)
+        list(s, effects[i].name, effects[i].in);
 }
 
 double brc_simulation_floor_bytes(const brc_simulation *s)

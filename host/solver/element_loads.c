@@ -40,7 +40,7 @@ static brc_status leave_isolated_out(brc_simulation *s, const brc_stage *stage, 
 {
     const int64_t *start = s->domain->row_start;
     int32_t kept = 0;
-    if (!brc_is_beams(s)) return BRC_OK;
+    if (!brc_has_spheres(s)) return BRC_OK;
     for (int32_t i = 0; i < *n; ++i)
         if (start[items[i].id + 1] > start[items[i].id]) items[kept++] = items[i];
     if (kept == 0 && *n > 0)
@@ -123,7 +123,7 @@ brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l,
     int64_t twice = 0;
     double *flags = NULL, *direction = NULL;
     brc_status status = BRC_OK;
-    if (!brc_turns(s) || (brc_is_published(s) && stage->solver != BRC_SOLVER_DYNAMIC))
+    if (!s->model->turns || (brc_is_published(s) && stage->solver != BRC_SOLVER_DYNAMIC))
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "stage '%s': element_rotation needs elements with rotations: model cbm, or dlsm-published in a "
                         "dynamic stage",

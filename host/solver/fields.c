@@ -54,21 +54,25 @@ int64_t brc_each_once(const brc_wants *w)
     return (void)w, 1;
 }
 
-bool brc_wants_dlsm(const brc_wants *w)
+bool brc_wants_cells(const brc_wants *w)
 {
-    return w->scene->model.kind == BRC_MODEL_DLSM;
+    return w->model->element == BRC_ELEMENT_CELL;
 }
-bool brc_wants_published(const brc_wants *w)
+bool brc_wants_spheres(const brc_wants *w)
 {
-    return w->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED;
-}
-bool brc_wants_beams(const brc_wants *w)
-{
-    return w->scene->model.kind == BRC_MODEL_CBM;
+    return w->model->element == BRC_ELEMENT_SPHERE;
 }
 bool brc_wants_turning(const brc_wants *w)
 {
-    return !brc_wants_dlsm(w);
+    return w->model->turns;
+}
+bool brc_wants_deforming(const brc_wants *w)
+{
+    return w->model->deforms;
+}
+bool brc_wants_rigid_cells(const brc_wants *w)
+{
+    return brc_wants_cells(w) && !w->model->deforms;
 }
 bool brc_wants_many(const brc_wants *w)
 {
@@ -96,6 +100,7 @@ void brc_wants_make(const brc_scene *scene, const brc_domain *domain, const brc_
 {
     const brc_precision precision = brc_device_get_precision(device);
     *out = (brc_wants){.scene = scene,
+                       .model = brc_bond_model_of(scene->model.kind),
                        .domain = domain,
                        .layout = layout,
                        .n_groups = layout->n_slices * (brc_device_slice(device) / brc_device_lanes(device)),

@@ -8,11 +8,13 @@
 #include "../device/device.h"
 #include "layout.h"
 #include "../scene/scene.h"
+#include "models/model.h"
 
 /* What the tables ask: scene and domain, and how the device stores them. Never what is drawn, nor which device it
  * is. */
 typedef struct brc_wants {
     const brc_scene *scene;
+    const brc_bond_model *model;
     const brc_domain *domain;
     const brc_layout *layout;
     const brc_convex *pieces; /* of rigid bodies; NULL: not made yet, or none */
@@ -89,11 +91,12 @@ int64_t brc_each_listed_end(const brc_wants *wants);
 int64_t brc_each_once(const brc_wants *wants);
 
 /* ---- what a field is wanted for ---- */
-bool brc_wants_dlsm(const brc_wants *wants);
-bool brc_wants_published(const brc_wants *wants);
-bool brc_wants_beams(const brc_wants *wants);
-bool brc_wants_turning(const brc_wants *wants); /* elements have rotations */
-bool brc_wants_many(const brc_wants *wants);    /* several materials */
+bool brc_wants_cells(const brc_wants *wants); /* elements are cells; spheres */
+bool brc_wants_spheres(const brc_wants *wants);
+bool brc_wants_turning(const brc_wants *wants);     /* elements have rotations */
+bool brc_wants_deforming(const brc_wants *wants);   /* elements have displacement gradients */
+bool brc_wants_rigid_cells(const brc_wants *wants); /* cells that have none */
+bool brc_wants_many(const brc_wants *wants);        /* several materials */
 
 /* What scene and domain want of a device; layout, pieces and material [n_elements] are borrowed. *out asks for no
  * list. */

@@ -184,18 +184,14 @@ static bool breaks(const brc_wants *w)
 {
     return w->scene->has_fracture;
 }
-static bool of_cells(const brc_wants *w)
-{
-    return !brc_wants_beams(w);
-}
 /* By a stress of elements: beams always, cells where the criterion asks for it. */
 static bool breaks_by_element(const brc_wants *w)
 {
-    return breaks(w) && (brc_wants_beams(w) || w->by_element);
+    return breaks(w) && (brc_wants_spheres(w) || w->by_element);
 }
 static bool weighted(const brc_wants *w)
 {
-    return w->weighted || (w->softens && brc_wants_beams(w));
+    return w->weighted || (w->softens && brc_wants_spheres(w));
 }
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
@@ -210,7 +206,7 @@ static const brc_field_row break_rows[] = {
      BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
     {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J",
      BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, of_cells, AT(gone), "lost bonds", "-",
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_cells, AT(gone), "lost bonds", "-",
      BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
     {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_beam_closure, AT(gone), "lost beams", "-",
      BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
@@ -219,21 +215,22 @@ static const brc_field_row break_rows[] = {
 };
 BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
 static const brc_field_row criterion_rows[] = {
-    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_beams, AT(record), "virial records", "J, m^3",
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_spheres, AT(record), "virial records", "J, m^3",
      BRC_KEPT("fracture.record", BRC_KEEP_ALL)},
-    {"record", brc_each_block, 8, BRC_FIELD_COEFF, of_cells, AT(record), "virial records", "J, m^3", BRC_NOT_KEPT},
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_cells, AT(record), "virial records", "J, m^3",
+     BRC_NOT_KEPT},
     {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa", BRC_NOT_KEPT},
     {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa", BRC_NOT_KEPT},
     {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-", BRC_NOT_KEPT},
     {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa", BRC_NOT_KEPT},
     {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress", "-", BRC_NOT_KEPT},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(weight), "bounds of stress", "m^3",
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(weight), "bounds of stress", "m^3",
      BRC_KEPT("fracture.weight", BRC_KEEP_ALL)},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(weight), "bounds of stress", "m^3",
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_cells, AT(weight), "bounds of stress", "m^3",
      BRC_KEPT("cells.weight", BRC_KEEP_ALL)},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(reach), "bounds of stress", "m^3",
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(reach), "bounds of stress", "m^3",
      BRC_KEPT("fracture.reach", BRC_KEEP_ALL)},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, of_cells, AT(reach), "bounds of stress", "m^3", BRC_NOT_KEPT},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_cells, AT(reach), "bounds of stress", "m^3", BRC_NOT_KEPT},
     {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-", BRC_NOT_KEPT},
     {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-", BRC_NOT_KEPT},
     {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds", "-", BRC_NOT_KEPT},

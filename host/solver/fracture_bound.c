@@ -90,7 +90,7 @@ brc_status brc_fracture_bound(brc_simulation *s)
     double *weakest = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
-    const bool softens = s->wants.softens && brc_is_beams(s); /* cells: cell_softening.c */
+    const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_softening.c */
     f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
     if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));
     if (softens) BRC_TRY_OR(cleanup, brc_beam_softening_create(s, &strengths));

@@ -26,7 +26,7 @@ static brc_status read_elements(brc_simulation *s, elements *e)
     for (int64_t k = 0; k < 3 * n; ++k)
         e->place[k] += s->domain->position[k];
     BRC_TRY(brc_simulation_velocity(s, e->velocity));
-    if (!brc_turns(s)) return BRC_OK;
+    if (!s->model->turns) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &e->inertia, n, "fragments"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->orientation, 4 * n, "fragments"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->spin, 3 * n, "fragments"));

@@ -160,7 +160,7 @@ static brc_status upload_masses(brc_simulation *s)
     if (s->scene->has_gravity) { /* padding has a mass to be divided by; falling, it would have an energy of its own */
         BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->weight, values, 1, 0));
     }
-    if (brc_turns(s)) {
+    if (s->model->turns) {
         if (brc_is_published(s)) {
             BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
         }
@@ -220,19 +220,15 @@ cleanup:
 
 static bool many_dlsm(const brc_wants *w)
 {
-    return w->many_materials && brc_wants_dlsm(w);
+    return w->many_materials && brc_wants_deforming(w);
 }
 static bool many_published(const brc_wants *w)
 {
-    return w->many_materials && brc_wants_published(w);
+    return w->many_materials && brc_wants_rigid_cells(w);
 }
 static bool many_beams(const brc_wants *w)
 {
-    return w->many_materials && brc_wants_beams(w);
-}
-static bool of_cells(const brc_wants *w)
-{
-    return !brc_wants_beams(w);
+    return w->many_materials && brc_wants_spheres(w);
 }
 static bool gravity(const brc_wants *w)
 {
@@ -246,22 +242,22 @@ static const brc_field_row rows[] = {
     {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-", BRC_NOT_KEPT},
     {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
     {"weight", brc_each_row, 1, BRC_FIELD_STATE, gravity, AT(weight), "masses in gravity", "kg", BRC_NOT_KEPT},
-    {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_published, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
+    {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_rigid_cells, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
     {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2",
      BRC_NOT_KEPT},
-    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(inv_volume), "inverse volumes", "1/m^3",
+    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(inv_volume), "inverse volumes", "1/m^3",
      BRC_NOT_KEPT},
-    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, of_cells, AT(inv_shape), "least-squares matrices", "1/m^3",
+    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_cells, AT(inv_shape), "least-squares matrices", "1/m^3",
      BRC_KEPT("cells.inverse_shape", BRC_KEEP_OWNERS)},
-    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(area), "area vectors", "m^2",
+    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_deforming, AT(area), "area vectors", "m^2",
      BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
-    {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_dlsm, AT(offset), "face offsets", "m", BRC_NOT_KEPT},
-    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_dlsm, AT(ratio), "length over area", "1/m",
+    {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_deforming, AT(offset), "face offsets", "m", BRC_NOT_KEPT},
+    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(ratio), "length over area", "1/m",
      BRC_KEPT("cells.ratio", BRC_KEEP_BROKEN)},
     {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_turning, AT(offset), "branches", "m", BRC_NOT_KEPT},
-    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_published, AT(area), "face areas", "m^2",
+    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(area), "face areas", "m^2",
      BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
-    {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_beams, AT(ratio), "inverse lengths", "1/m",
+    {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(ratio), "inverse lengths", "1/m",
      BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
     {"material", brc_each_row, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -",
      BRC_NOT_KEPT},

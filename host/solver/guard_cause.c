@@ -46,7 +46,7 @@ void brc_guard_tell_element(brc_simulation *s, int64_t e, char *text, size_t siz
     const int64_t n_bonds = d->row_start[e + 1] - d->row_start[e];
     add(text, size, "element %lld, at (%.4g, %.4g, %.4g) m when undeformed, body '%s', has %lld bonds", (long long)e,
         x[0], x[1], x[2], s->scene->bodies[d->body[e]].name, (long long)n_bonds);
-    if (n_bonds > 0 && !brc_is_beams(s))
+    if (n_bonds > 0 && !brc_has_spheres(s))
         add(text, size, " (its neighbours span one direction by %.2g of another)", span_of(d, e));
     int64_t n = 0, broken = 0;
     const brc_break *breaks = NULL;
@@ -88,7 +88,7 @@ void brc_guard_tell_cause(const brc_simulation *s, int64_t e, double off, char *
             "time step: velocity Verlet's own oscillation is of this size at %.3g of the critical step; use a smaller "
             "safety, or a wider guard.closure",
             safety);
-    else if (brc_is_beams(s))
+    else if (brc_has_spheres(s))
         add(text, size,
             "beams that were stretched or bent far beyond their law (sections turned by more than a right angle)");
     else if (e >= 0 && s->domain->row_start[e + 1] > s->domain->row_start[e] && span_of(s->domain, e) < weak_span)

@@ -35,7 +35,7 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
     memset(out, 0, sizeof *out);
     const int32_t n = s->layout->n_rows;
     BRC_TRY(BRC_RUN(s->pass.kinetic_energy, n, {"velocity", BRC_BUF(s->velocity)}));
-    if (brc_turns(s)) BRC_TRY(BRC_RUN(s->pass.add_spin_energy, n, {"spin", BRC_BUF(s->spin)}));
+    if (s->model->turns) BRC_TRY(BRC_RUN(s->pass.add_spin_energy, n, {"spin", BRC_BUF(s->spin)}));
     BRC_TRY(brc_vector_sum(s, s->kinetic, n, &out->kinetic));
     BRC_TRY(brc_force_energies(s, &out->elastic, &out->stabilisation));
     BRC_TRY(gravity_potential(s, &out->potential));

@@ -168,7 +168,7 @@ static brc_status create_held(brc_simulation *s, const brc_stage *stage, brc_hel
         n += bits[f] != 0;
     held->n_faces = n;
     if (n == 0) goto cleanup;
-    if (brc_turns(s)) {
+    if (!s->model->deforms) {
         status =
             BRC_FAIL(s->context, BRC_BAD_INPUT,
                      "stage '%s': dlsm-published moves whole elements; use element_displacement or element_velocity",
@@ -426,7 +426,8 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
     brc_status status = BRC_OK;
     const bool meets = s->scene->has_contact && stage->solver == BRC_SOLVER_DYNAMIC;
     *any = false;
-    if (!brc_is_beams(s) || (meets && !s->scene->model.keep_isolated)) return BRC_OK; /* loose ones are for contact */
+    if (!brc_has_spheres(s) || (meets && !s->scene->model.keep_isolated))
+        return BRC_OK; /* loose ones are for contact */
     for (int64_t e = 0; e < d->n_elements; ++e)
         n += d->row_start[e + 1] == d->row_start[e];
     if (n == 0) return BRC_OK;
@@ -478,7 +479,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         } else if (load->kind == BRC_LOAD_ELEMENT_ROTATION) {
             status = brc_turn_create(s, stage, l, turned, out->turns + out->n_turns++);
         } else if (!brc_load_holds_faces(load)) {
-            if (brc_is_beams(s))
+            if (brc_has_spheres(s))
                 status =
                     BRC_FAIL(s->context, BRC_BAD_INPUT,
                              "stage '%s': cbm takes no tractions; use model dlsm, element_force, or prescribe elements",

@@ -9,7 +9,7 @@ static int32_t blocks_of(const brc_simulation *s)
 
 static bool of_cells(const brc_wants *w)
 {
-    return w->scene->has_fracture && !brc_wants_beams(w);
+    return w->scene->has_fracture && brc_wants_cells(w);
 }
 static bool softening_cells(const brc_wants *w)
 {
@@ -72,7 +72,7 @@ static brc_status make_passes(brc_simulation *s, brc_rings *r)
     static const brc_value_row torques[] = {{"fresh", BRC_VALUE_BUFFER, AT(torque)}};
     const brc_scope spins = {.owner = "turning", .base = s, BRC_VALUES(turning), .outer = &rings},
                     turns = {.owner = "torques", .base = r, BRC_VALUES(torques), .outer = &spins};
-    return BRC_PASSES(s, &turns, {&r->replace_turns, "ring_replace", "list", !brc_turns(s)});
+    return BRC_PASSES(s, &turns, {&r->replace_turns, "ring_replace", "list", !s->model->turns});
 }
 
 brc_status brc_rings_create(brc_simulation *s, brc_rings **out)

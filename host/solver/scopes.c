@@ -77,7 +77,7 @@ static void fill_constants(brc_simulation *s)
                                   .gravity = {g[0], g[1], g[2]},
                                   .area_weights = model->area_weights,
                                   .finite = !model->small_rotations,
-                                  .turns = brc_turns(s)};
+                                  .turns = s->model->turns};
     if (!brc_is_beams(s)) return;
     const brc_beam *beam = brc_beam_of_element(s, 0);
     s->constant.axial = beam->axial;
@@ -107,7 +107,7 @@ static brc_status make_load_passes(brc_simulation *s, const brc_scope *run, cons
                                             {"last_factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, last_factor)}};
     static const brc_value_row of_turn[] = {{"last_rate", BRC_VALUE_REAL, BRC_FIELD_AT(brc_turn_load, last_rate)}};
     brc_run_passes *p = &s->pass;
-    const bool dlsm = brc_is_dlsm(s), turns = brc_turns(s);
+    const bool dlsm = brc_is_dlsm(s), turns = s->model->turns;
     const brc_scope held = {.owner = "held faces",
                             .base = &s->loads.held,
                             .tables = {&brc_held_element_fields, &brc_held_face_fields},
@@ -146,7 +146,7 @@ static brc_status make_load_passes(brc_simulation *s, const brc_scope *run, cons
 static brc_status find_kernels(brc_simulation *s)
 {
     brc_kernels *k = &s->kernel;
-    const bool beams = brc_is_beams(s), turns = brc_turns(s);
+    const bool beams = brc_is_beams(s), turns = s->model->turns;
     const struct {
         brc_kernel **slot;
         const char *name;
@@ -168,7 +168,7 @@ static brc_status find_kernels(brc_simulation *s)
 brc_status brc_run_passes_make(brc_simulation *s)
 {
     brc_run_passes *p = &s->pass;
-    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), beams = brc_is_beams(s), turns = brc_turns(s),
+    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), beams = brc_is_beams(s), turns = s->model->turns,
                whole = !s->scene->has_fracture;
     fill_constants(s);
     BRC_TRY(find_kernels(s));

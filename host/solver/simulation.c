@@ -58,11 +58,12 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     brc_simulation *s = NULL;
     brc_status status = BRC_OK;
     if (domain->n_elements < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has no elements");
-    if (domain->element_kind == BRC_ELEMENT_SPHERE && scene->model.kind != BRC_MODEL_CBM)
+    if (domain->element_kind == BRC_ELEMENT_SPHERE &&
+        brc_bond_model_of(scene->model.kind)->element != BRC_ELEMENT_SPHERE)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "model %s needs cells, the bodies are spheres joined by beams; remove `beams` from the bodies, "
                         "or use model: cbm",
-                        scene->model.kind == BRC_MODEL_DLSM ? "dlsm" : "dlsm-published");
+                        brc_model_name(scene->model.kind));
     for (int32_t b = 0; b < scene->n_bodies; ++b)
         if (scene->bodies[b].has_model && !brc_split_same_model(&scene->bodies[b].model, &scene->model))
             return BRC_FAIL(context, BRC_BAD_INPUT,
@@ -76,6 +77,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
     s->context = context;
     s->scene = scene;
+    s->model = brc_bond_model_of(scene->model.kind);
     s->domain = domain;
     s->device = device;
     s->stage = -1;

@@ -11,20 +11,20 @@ static bool damping(const brc_wants *w)
 }
 static bool held_gradients(const brc_wants *w)
 {
-    return brc_wants_dlsm(w) && w->face_loads;
+    return brc_wants_deforming(w) && w->face_loads;
 }
 static bool held_moments(const brc_wants *w)
 {
-    return brc_wants_dlsm(w) && (w->face_loads || w->scene->has_contact);
+    return brc_wants_deforming(w) && (w->face_loads || w->scene->has_contact);
 }
 static bool bond_parts(const brc_wants *w)
 {
-    return brc_wants_dlsm(w) && w->many_materials;
+    return brc_wants_deforming(w) && w->many_materials;
 }
 /* What breaks cost velocity Verlet is booked with what damps by itself. */
 static bool numerical_losses(const brc_wants *w)
 {
-    return w->tchamwa || (brc_wants_dlsm(w) && w->scene->has_fracture);
+    return w->tchamwa || (brc_wants_deforming(w) && w->scene->has_fracture);
 }
 
 /* Blocks of a sum over three numbers a row (kernels/vector.cl). */
@@ -40,12 +40,12 @@ static const brc_field_row rows[] = {
     {"velocity", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(velocity), "velocities", "m/s",
      BRC_KEPT("velocity", BRC_KEEP_ALL)},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces", "N", BRC_KEPT("force", BRC_KEEP_ALL)},
-    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(gradient), "displacement gradients", "-",
+    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_deforming, AT(gradient), "displacement gradients", "-",
      BRC_NOT_KEPT},
-    {"strain", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_published, AT(gradient), "strains", "-",
+    {"strain", brc_each_row, 6, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(gradient), "strains", "-",
      BRC_KEPT("strain", BRC_KEEP_ALL)},
-    {"stress", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(stress), "stresses", "Pa", BRC_NOT_KEPT},
-    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_dlsm, AT(flux), "fluxes", "Pa", BRC_NOT_KEPT},
+    {"stress", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_deforming, AT(stress), "stresses", "Pa", BRC_NOT_KEPT},
+    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_deforming, AT(flux), "fluxes", "Pa", BRC_NOT_KEPT},
     {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, bond_parts, AT(bond_part), "bond parts", "Pa", BRC_NOT_KEPT},
     {"held_gradient", brc_each_boundary, 9, BRC_FIELD_COEFF, held_gradients, AT(held_gradient), "held gradients", "m^3",
      BRC_NOT_KEPT},
@@ -63,7 +63,7 @@ static const brc_field_row rows[] = {
     {"lost_damping", brc_each_row, 1, BRC_FIELD_STATE, damping, AT(lost_damping), "damping dissipation", "J",
      BRC_KEPT("lost_damping", BRC_KEEP_ALL)},
     {"elastic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(elastic_energy), "elastic energies", "J", BRC_NOT_KEPT},
-    {"stabilisation", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_dlsm, AT(stabilisation_energy),
+    {"stabilisation", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_deforming, AT(stabilisation_energy),
      "stabilisation energies", "J", BRC_NOT_KEPT},
     {"kinetic", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(kinetic), "kinetic energies", "J", BRC_NOT_KEPT},
     {"partial", each_partial, 1, BRC_FIELD_STATE, NULL, AT(partial), "block sums", "-", BRC_NOT_KEPT},
@@ -74,7 +74,7 @@ brc_status brc_simulation_fields_create(brc_simulation *s)
 {
     double *upright = NULL;
     BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s));
-    if (!brc_turns(s)) return BRC_OK;
+    if (!s->model->turns) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
     for (int64_t r = 0; r < s->layout->n_rows; ++r)
         upright[4 * r] = 1;

@@ -139,6 +139,7 @@ typedef struct brc_stage_progress {
 struct brc_simulation {
     brc_context *context;
     const brc_scene *scene;
+    const brc_bond_model *model;
     const brc_domain *domain;
     brc_device *device;
     brc_layout *layout;
@@ -389,6 +390,10 @@ static inline const brc_stage *brc_current_stage(const brc_simulation *s)
 {
     return &s->scene->stages[s->stage];
 }
+static inline bool brc_has_spheres(const brc_simulation *s)
+{
+    return s->model->element == BRC_ELEMENT_SPHERE;
+}
 static inline bool brc_is_beams(const brc_simulation *s)
 {
     return s->scene->model.kind == BRC_MODEL_CBM;
@@ -396,11 +401,6 @@ static inline bool brc_is_beams(const brc_simulation *s)
 static inline bool brc_is_dlsm(const brc_simulation *s)
 {
     return s->scene->model.kind == BRC_MODEL_DLSM;
-}
-/* Elements have rotations of their own. */
-static inline bool brc_turns(const brc_simulation *s)
-{
-    return !brc_is_dlsm(s);
 }
 static inline bool brc_is_published(const brc_simulation *s)
 {

@@ -100,7 +100,7 @@ brc_status brc_simulation_set_state(brc_simulation *s, const double *displacemen
 
 brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, double *spin)
 {
-    if (!brc_turns(s))
+    if (!s->model->turns)
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "model dlsm has no orientations of its own; ask for strains instead");
     BRC_TRY(brc_state_from_rows(s, s->orientation, orientation, 4));

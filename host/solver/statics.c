@@ -121,10 +121,6 @@ brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
     return BRC_OK;
 }
 
-static bool of_cells(const brc_wants *w)
-{
-    return !brc_wants_beams(w);
-}
 static bool statics(const brc_wants *w)
 {
     bool any = false;
@@ -137,7 +133,7 @@ static bool statics(const brc_wants *w)
 #define UNKNOWNS(name, member)                                                                                         \
     {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT},               \
     {                                                                                                                  \
-        name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(member.turn), "static solver", "-",        \
+        name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_spheres, AT(member.turn), "static solver", "-",      \
             BRC_NOT_KEPT                                                                                               \
     }
 static const brc_field_row rows[] = {
@@ -148,13 +144,13 @@ static const brc_field_row rows[] = {
     UNKNOWNS("kp", kp),
     {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m",
      BRC_KEPT("static.before", BRC_KEEP_ALL)},
-    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_published, AT(zero), "static solver", "-", BRC_NOT_KEPT},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_rigid_cells, AT(zero), "static solver", "-", BRC_NOT_KEPT},
     {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-",
      BRC_NOT_KEPT},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_beams, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
-    {"block", brc_each_row, 6, BRC_FIELD_STATE, of_cells, AT(preconditioner.blocks), "preconditioner", "-",
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_spheres, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, brc_wants_cells, AT(preconditioner.blocks), "preconditioner", "-",
      BRC_NOT_KEPT},
-    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_beams, AT(preconditioner.blocks), "preconditioner", "-",
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_spheres, AT(preconditioner.blocks), "preconditioner", "-",
      BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
@@ -358,11 +354,11 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
     brc_status status = BRC_OK;
     if (factor == 0) { /* also of a state that is not finite */
         BRC_TRY(brc_buffer_fill_zero(s->displacement));
-        return brc_turns(s) ? brc_vector_small_rotation(s, s->displacement, s->orientation) : BRC_OK;
+        return s->model->turns ? brc_vector_small_rotation(s, s->displacement, s->orientation) : BRC_OK;
     }
     BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
     BRC_TRY(brc_unknowns_add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
-    if (!brc_turns(s)) return BRC_OK;
+    if (!s->model->turns) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
     BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
     for (int64_t e = 0; e < n; ++e) {

@@ -78,7 +78,7 @@ static brc_status random_vector(brc_simulation *s, brc_buffer *out, uint64_t whi
 static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
 {
     const int32_t n = s->layout->n_rows;
-    const bool turns = brc_turns(s);
+    const bool turns = s->model->turns;
     double mass_norm = 0, part, energy = 0;
     if (turns) BRC_TRY(brc_vector_small_rotation(s, w->theta, w->orientation));
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = w->x,
@@ -123,7 +123,7 @@ static brc_status critical_step(brc_simulation *s, double *out)
     const double size = cbrt(s->domain->volume[0]);
     BRC_TRY_OR(cleanup, random_vector(s, w.x, 0, size));
     BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, w.x));
-    if (brc_turns(s)) {
+    if (s->model->turns) {
         BRC_TRY_OR(cleanup, random_vector(s, w.theta, 1, 1));
         BRC_TRY_OR(cleanup, brc_loads_zero_turned(s, w.theta));
     }

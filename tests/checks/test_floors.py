@@ -82,6 +82,6 @@ bad = {
 }
 circle = {"a circle of three": {"host/base/a.h": '#include "b.h"\n', "host/base/b.h": '#include "c.h"\n',
                                 "host/base/c.h": '#include "a.h"\n'}}
-sources = repository.read(r"^(host|kernels|preprocess|bench|cmake)/.*(\.(c|h|cc|cl|cmake)|CMakeLists\.txt)$")
+sources = repository.read(r"^(host|kernels|preprocess|bench|cmake)/.*(\.(c|h|cc|cl|cmake|def)|CMakeLists\.txt)$")
 repository.finish([repository.report("floors", floors, sources, bad),
                    repository.report("circles", circles, sources, circle)])

@@ -60,7 +60,7 @@ static double product(bench_case *c, brc_unknowns a, brc_unknowns b)
 static void assert_symmetric_and_positive_of(bench_case *case_of)
 {
     bench_case c = *case_of;
-    const bool turns = brc_is_beams(c.simulation);
+    const bool turns = brc_has_spheres(c.simulation);
     brc_multigrid *m = make(&c);
     assert_true(brc_multigrid_get_report(m).n_levels >= 2);
     for (uint64_t k = 0; k < 4; ++k) {
