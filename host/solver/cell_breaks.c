@@ -285,7 +285,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
     while (left > 0) {
         double more;
         BRC_TRY(brc_rings_find(s, c->rings));
-        BRC_TRY(brc_force_energy_around(s, c->rings, true, &more));
+        BRC_TRY(s->model->breaking->energy_around(s, c->rings, true, &more));
         *energy += more;
         BRC_TRY(brc_closed_faces_keep(s));
         BRC_TRY(BRC_RUN(c->break_pass, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))},
@@ -326,7 +326,11 @@ static brc_status find_rings(brc_simulation *s)
         const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
         BRC_TRY(brc_contact_broken(s, 0));
         BRC_TRY(brc_rings_touched(s, rings, &rings->around));
-        BRC_TRY(brc_force_gradients_around(s, rings));
+        if (s->model->breaking->gradients_around) {
+            brc_force_request request = brc_force_request_of_state(s, BRC_BOOK_NOTHING);
+            request.rings = rings;
+            BRC_TRY(s->model->breaking->gradients_around(s, &request));
+        }
         BRC_TRY(brc_contact_settle(s));
         brc_phase_within(s, phase);
     }
@@ -375,7 +379,7 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
     if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
     BRC_TRY(kick_others(s, -half_kick));
-    BRC_TRY(brc_force_energy_around(s, rings, false, &after));
+    BRC_TRY(s->model->breaking->energy_around(s, rings, false, &after));
     BRC_TRY(outside_energy(s, &outside));
     BRC_TRY(brc_rings_sum(s, &rings->around, 0, f->cells->weight, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */

@@ -68,29 +68,5 @@ void brc_effects_list(brc_simulation *s)
 
 double brc_simulation_floor_bytes(const brc_simulation *s)
 {
-    const brc_precision precision = brc_device_get_precision(s->device);
-    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
-    const double half_edges = (double)s->domain->n_half_edges, n = (double)s->domain->n_elements;
-    const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
-    if (brc_is_published(s)) {
-        /* strain pass: neighbour, R (S with area weights); u, q, A^-1 read, strain written */
-        const double strain =
-            half_edges * (4 + (3 + (s->scene->model.area_weights ? 1 : 0)) * coeff) + n * (7 * state + 12 * coeff);
-        /* force pass: neighbour, R, S; u, q, strain read, f and t written */
-        const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + (6 + 3 * many) * coeff + 6 * state);
-        /* motion: f, v, u, m and t, w, q, I read; v, u, w, q written */
-        return strain + force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
-    }
-    if (brc_is_beams(s)) {
-        /* force pass: neighbour, branch, 1/length; u, q read, f and t written; motion as above */
-        const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + 3 * many * coeff + 6 * state);
-        return force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
-    }
-    const double pass1 = half_edges * (4 + 3 * coeff) + n * (3 * state + (6 + 9) * coeff);
-    const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 1 + 9 + 2 * many) * coeff;
-    const double pass3 =
-        half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 1 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
-    const double pass4 = half_edges * (4 + 4 * coeff) + n * ((9 + (9 + 1) * many) * coeff + (3 + 3) * state);
-    const double motion = n * (3 + 3 + 3 + 1 + 3 + 3) * state;
-    return pass1 + pass2 + pass3 + pass4 + motion;
+    return s->model->floor_bytes(s);
 }

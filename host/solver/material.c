@@ -16,3 +16,10 @@ brc_elastic brc_elastic_of(const brc_material *material)
                          .k = mu_c,
                          .ell = lambda_c / (2 * mu_c)};
 }
+
+void brc_hooke(const brc_elastic *m, const double e[6], double out[6])
+{
+    const double pressure = m->lambda * (e[0] + e[1] + e[2]);
+    for (int c = 0; c < 6; ++c)
+        out[c] = 2 * m->mu * e[c] + (c < 3 ? pressure : 0);
+}

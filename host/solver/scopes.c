@@ -78,11 +78,6 @@ static void fill_constants(brc_simulation *s)
                                   .area_weights = model->area_weights,
                                   .finite = !model->small_rotations,
                                   .turns = s->model->turns};
-    if (!brc_is_beams(s)) return;
-    const brc_beam *beam = brc_beam_of_element(s, 0);
-    s->constant.axial = beam->axial;
-    s->constant.bend = beam->bend;
-    s->constant.twist = beam->twist;
 }
 
 /* One thing of many, which each launch gives: a load. */
@@ -107,28 +102,19 @@ static brc_status make_load_passes(brc_simulation *s, const brc_scope *run, cons
                                             {"last_factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, last_factor)}};
     static const brc_value_row of_turn[] = {{"last_rate", BRC_VALUE_REAL, BRC_FIELD_AT(brc_turn_load, last_rate)}};
     brc_run_passes *p = &s->pass;
-    const bool dlsm = brc_is_dlsm(s), turns = s->model->turns;
+    const bool turns = s->model->turns;
     const brc_scope held = {.owner = "held faces",
                             .base = &s->loads.held,
                             .tables = {&brc_held_element_fields, &brc_held_face_fields},
                             .outer = request};
-    const brc_pass_wanted of_held[] = {{&p->held_gradient, "held_gradient_pass", "value", !dlsm},
-                                       {&p->held_moment, "held_moment_pass", "value", !dlsm},
-                                       {&p->held_force, "held_force_pass", "value reaction", !dlsm}};
-    BRC_TRY(BRC_PASSES_MAKE(s, &held, of_held));
     const brc_scope state = {.owner = "held faces",
                              .base = &s->loads.held,
                              .tables = {&brc_held_element_fields, &brc_held_face_fields},
                              .outer = run};
-    BRC_TRY(BRC_PASSES(s, &state, {&p->held_energy, "held_energy", NULL, !dlsm}));
     const brc_scope held_load = scope_of_load("held load", &brc_held_load_fields, 0, NULL, &state);
-    BRC_TRY(BRC_PASSES(s, &held_load, {&p->held_prescribe, "held_prescribe", "factor", !dlsm}));
     const brc_scope traction = scope_of_load("traction", &brc_traction_fields, 1, of_traction, request);
-    const brc_pass_wanted of_tractions[] = {
-        {&p->traction_moment, "traction_moment_pass", "factor", !dlsm},
-        {&p->traction_force, "traction_force_pass", "factor", !dlsm},
-        {&p->traction_turned, "traction_turned_pass", "factor", !brc_is_published(s)}};
-    BRC_TRY(BRC_PASSES_MAKE(s, &traction, of_tractions));
+    const brc_face_scopes faces = {&held, &state, &held_load, &traction};
+    if (s->model->make_face_passes) BRC_TRY(s->model->make_face_passes(s, &faces));
     const brc_scope imposed = scope_of_load("imposed elements", &brc_imposed_fields, 1, of_imposed, request);
     BRC_TRY(BRC_PASSES(s, &imposed, {&p->impose_book, "impose_book", "rate", false}));
     const brc_scope still = scope_of_load("imposed elements", &brc_imposed_fields, 1, of_imposed, run);
@@ -168,35 +154,12 @@ static brc_status find_kernels(brc_simulation *s)
 brc_status brc_run_passes_make(brc_simulation *s)
 {
     brc_run_passes *p = &s->pass;
-    const bool published = brc_is_published(s), dlsm = brc_is_dlsm(s), beams = brc_is_beams(s), turns = s->model->turns,
-               whole = !s->scene->has_fracture;
+    const bool turns = s->model->turns;
     fill_constants(s);
     BRC_TRY(find_kernels(s));
     const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run), sums = brc_scope_of_sums(s, &run);
-    const brc_pass_wanted of_requests[] = {
-        {&p->gradient, "dlsm_gradient", NULL, !dlsm},
-        {&p->stress, "dlsm_stress", NULL, !dlsm},
-        {&p->flux, "dlsm_flux_pass", "face_loads", !dlsm},
-        {&p->force, "dlsm_force", NULL, !dlsm},
-        {&p->gradient_listed, "dlsm_gradient_listed", BRC_LISTED, !dlsm || whole},
-        {&p->stress_listed, "dlsm_stress_listed", BRC_LISTED, !dlsm || whole},
-        {&p->flux_listed, "dlsm_flux_listed", BRC_LISTED " face_loads", !dlsm || whole},
-        {&p->force_listed, "dlsm_force_listed", BRC_LISTED, !dlsm || whole},
-        {&p->published_strain, "published_strain_pass", NULL, !published},
-        {&p->published_force, "published_force_pass", NULL, !published},
-        {&p->published_force_listed, "published_force_listed", BRC_LISTED, !published || whole},
-        {&p->cbm_force, "cbm_force_pass", NULL, !beams},
-    };
-    BRC_TRY(BRC_PASSES_MAKE(s, &request, of_requests));
+    BRC_TRY(s->model->make_passes(s, &run, &request));
     const brc_pass_wanted of_state[] = {
-        {&p->energy, "dlsm_energy", NULL, !dlsm},
-        {&p->energy_listed, "dlsm_energy_listed", BRC_LISTED, !dlsm || whole},
-        {&p->published_energy, "published_energy", NULL, !published},
-        {&p->published_energy_listed, "published_energy_listed", BRC_LISTED, !published || whole},
-        {&p->deformation, "dlsm_deformation", "face_loads deformation", !dlsm},
-        {&p->face_displacement, "face_displacement", "element arm out", !dlsm},
-        {&p->cbm_energy, "cbm_energy", NULL, !beams},
-        {&p->cbm_virial, "cbm_virial", "virial", !beams},
         {&p->advance, "advance", "kick drift", false},
         {&p->advance_rotation, "advance_rotation", "kick drift extra", !turns},
         {&p->divide_by_mass, "divide_by_mass", "mass vector", false},

@@ -212,10 +212,7 @@ brc_status brc_stage_start(brc_simulation *s)
     if (s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
     BRC_TRY(brc_loads_prescribe(s, 0));
     if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
-    if (s->contact && brc_is_dlsm(s))
-        BRC_TRY(brc_force_fluxes_of_state(
-            s, NULL,
-            true)); /* cells reach as far as H says, which the search for the time step has used for other motions */
+    BRC_TRY(brc_force_refresh(s)); /* the search for the time step has evaluated other motions */
     BRC_TRY(brc_contact_restart(s));
     brc_closed_faces_restart(s);
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));

@@ -24,6 +24,8 @@ typedef struct brc_elastic {
     double ell; /* lambda_c / (2 mu_c) [-] */
 } brc_elastic;
 brc_elastic brc_elastic_of(const brc_material *material);
+/* Hooke's law: stress of a strain, xx yy zz yz xz xy. */
+void brc_hooke(const brc_elastic *material, const double strain[6], double stress[6]);
 
 /* Beams of one material in one body (beams.c). */
 typedef struct brc_beam {
@@ -334,25 +336,15 @@ typedef struct brc_force_request {
     bool listed_pairs;                /* dlsm: of the pairs of surfaces those of brc_contact_list_around alone */
 } brc_force_request;
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
-/* dlsm-published: force and torque of tractions, added to those of the request; part of brc_force_evaluate but for
- * homogeneous requests. */
-brc_status brc_force_turned_tractions(brc_simulation *s, const brc_force_request *r);
 /* The simulation's own state, with the full law, at its time. */
+brc_force_request brc_force_request_of_state(brc_simulation *s, brc_booking book);
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
 /* The same where only what broken bonds change is evaluated. */
 brc_status brc_force_around_breaks(brc_simulation *s, const struct brc_rings *rings);
-/* dlsm: the gradients of ring 0 alone. */
-brc_status brc_force_gradients_around(brc_simulation *s, const struct brc_rings *rings);
-/* dlsm: of the same only H, P and B, with which the forces of single bonds can be formed; books nothing. list (NULL:
- * all elements): B is wanted in its ring 0, so P in ring 1 and H, where the elements moved, in ring 2, else in ring
- * 0. */
-brc_status brc_force_fluxes_of_state(brc_simulation *s, const struct brc_ring_list *list, bool moved);
-/* Only H and G's held part, for outputs after the state moved. */
+/* What surfaces reach by, of a state that was not evaluated; where there is contact. */
+brc_status brc_force_refresh(brc_simulation *s);
+/* For outputs after the state moved. */
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
-/* Cells: energy of rings 0 and 1 of rings->around, elastic and of stabilisation, but for what both sides of a break
- * have in common; found: of what brc_rings_find has found last, before its bonds break. That of held faces is apart
- * [J]. */
-brc_status brc_force_energy_around(brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
 brc_status brc_force_held_energy(brc_simulation *s, double *out);
 
 /* ---- phases.c ---- */

@@ -220,11 +220,11 @@ static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_
                                                        .orientation = v->orientation,
                                                        .torque = v->r.move,
                                                        .homogeneous = true}));
-    BRC_TRY(brc_force_turned_tractions(s, &(brc_force_request){.displacement = s->displacement,
-                                                               .force = v->z.move,
-                                                               .orientation = v->orientation,
-                                                               .torque = v->r.move,
-                                                               .t = s->load_factor}));
+    BRC_TRY(s->model->late_tractions(s, &(brc_force_request){.displacement = s->displacement,
+                                                             .force = v->z.move,
+                                                             .orientation = v->orientation,
+                                                             .torque = v->r.move,
+                                                             .t = s->load_factor}));
     BRC_TRY(remove_mean(s, v->r.move));
     BRC_TRY(brc_statics_square(s, v, v->r, &square));
     BRC_TRY(brc_conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));

@@ -6,6 +6,11 @@
 #include "../../../preprocess/domain/domain.h"
 #include "../../scene/scene.h"
 
+struct brc_simulation;
+struct brc_scope;
+struct brc_force_request;
+struct brc_rings;
+
 /* How contact sees the surface of an element: as kernels number it (contact_body.h). */
 typedef enum brc_surface { BRC_SURFACE_SPHERE, BRC_SURFACE_AFFINE, BRC_SURFACE_RIGID } brc_surface;
 
@@ -15,12 +20,51 @@ typedef struct brc_model_effect {
     bool (*in)(const brc_scene *scene);
 } brc_model_effect;
 
+/* Scopes of passes of held faces, in an evaluation and outside of one, of the loads that hold them, and of
+ * tractions. */
+typedef struct brc_face_scopes {
+    const struct brc_scope *held, *held_state, *held_load, *traction;
+} brc_face_scopes;
+
+/* How cells go on where bonds broke (cell_breaks.c). */
+typedef struct brc_model_breaking {
+    /* Gradients of ring 0, before surfaces are looked for; NULL: surfaces move with rotations. */
+    brc_status (*gradients_around)(struct brc_simulation *s, const struct brc_force_request *r);
+    /* Forces around breaks take the place of those of the state. */
+    brc_status (*replace_around)(struct brc_simulation *s, const struct brc_rings *rings);
+    /* Energy of rings 0 and 1 of rings->around, elastic and of stabilisation, but for what both sides of a break have
+     * in common; found: of what brc_rings_find has found last, before its bonds break. That of held faces is apart
+     * [J]. */
+    brc_status (*energy_around)(struct brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
+} brc_model_breaking;
+
 typedef struct brc_bond_model {
     brc_element_kind element; /* that it takes */
     bool turns;               /* elements have rotations of their own */
     bool deforms;             /* elements have a displacement gradient, with which their faces and surfaces move */
     brc_surface surface;
     brc_model_effect effect[2]; /* name NULL: no more */
+
+    /* The passes of the law, in the scopes of the run and of an evaluation; and of loads on faces (NULL: it has no
+     * faces). */
+    brc_status (*make_passes)(struct brc_simulation *s, const struct brc_scope *run, const struct brc_scope *request);
+    brc_status (*make_face_passes)(struct brc_simulation *s, const brc_face_scopes *in);
+    /* Forces of bonds, and torques, of held faces and tractions too: written, not added. */
+    brc_status (*evaluate)(struct brc_simulation *s, const struct brc_force_request *r);
+    /* Tractions that are forces on elements, added after those of loads on elements; NULL: evaluate has them. */
+    brc_status (*late_tractions)(struct brc_simulation *s, const struct brc_force_request *r);
+    brc_status (*energies)(struct brc_simulation *s, double *elastic, double *stabilisation);
+    /* What surfaces reach by, of a state that was not evaluated; NULL: its motion says it. */
+    brc_status (*refresh)(struct brc_simulation *s);
+    double (*floor_bytes)(const struct brc_simulation *s); /* the least that a step must move */
+
+    /* Of every element [n_elements][6] xx yy zz yz xz xy, each may be NULL; of faces [n][3]. */
+    brc_status (*strain_stress)(struct brc_simulation *s, double *strain, double *stress, double *cauchy);
+    brc_status (*face_displacement)(struct brc_simulation *s, int64_t n, const int32_t *faces, double *out);
+    /* Averaged over `level` shells of neighbours; NULL: stress is not a sum over bonds. */
+    brc_status (*virial_stress)(struct brc_simulation *s, int level, double *stress);
+
+    const brc_model_breaking *breaking; /* NULL: criteria of elements alone */
 } brc_bond_model;
 
 /* The descriptor of a kind. */

@@ -1,10 +1,14 @@
 /* Model dlsm: the conservative law (docs/notebook/theory.md T2). */
-#include "../model.h"
+#include "dlsm.h"
 
 static bool compacts(const brc_scene *scene)
 {
     return scene->model.compaction && scene->model.beta != 0;
 }
+
+static const brc_model_breaking breaking = {.gradients_around = brc_dlsm_gradients_around,
+                                            .replace_around = brc_dlsm_replace_around,
+                                            .energy_around = brc_dlsm_energy_around};
 
 extern const brc_bond_model brc_dlsm;
 const brc_bond_model brc_dlsm = {
@@ -12,4 +16,13 @@ const brc_bond_model brc_dlsm = {
     .deforms = true,
     .surface = BRC_SURFACE_AFFINE,
     .effect = {{"conservative elasticity (dlsm)", NULL}, {"compaction", compacts}},
+    .make_passes = brc_dlsm_make_passes,
+    .make_face_passes = brc_dlsm_make_face_passes,
+    .evaluate = brc_dlsm_evaluate,
+    .energies = brc_dlsm_energies,
+    .refresh = brc_dlsm_refresh,
+    .floor_bytes = brc_dlsm_floor_bytes,
+    .strain_stress = brc_dlsm_strain_stress,
+    .face_displacement = brc_dlsm_face_displacement,
+    .breaking = &breaking,
 };

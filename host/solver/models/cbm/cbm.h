@@ -1,0 +1,19 @@
+/* Model cbm, shared by its files. */
+#ifndef BRC_SOLVER_MODELS_CBM_CBM_H
+#define BRC_SOLVER_MODELS_CBM_CBM_H
+
+#include "../../simulation_internal.h"
+
+/* ---- passes.c ---- */
+brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);
+
+/* ---- force.c ---- */
+brc_status brc_cbm_evaluate(brc_simulation *s, const brc_force_request *r);
+brc_status brc_cbm_energies(brc_simulation *s, double *elastic, double *stabilisation);
+
+/* ---- observe.c: what is read of a state ---- */
+/* Virial stress over an element and its neighbours, and the strain it means. */
+brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
+double brc_cbm_floor_bytes(const brc_simulation *s);
+
+#endif

@@ -1,0 +1,20 @@
+/* Forces and energies of cbm: the order of its passes (docs/notebook/beams.md). */
+#include "../../beam_closure.h"
+#include "../../beam_softening.h"
+#include "../../fracture_internal.h"
+#include "cbm.h"
+
+brc_status brc_cbm_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    if (s->fracture && r->finite) return brc_fracture_force(s, r);
+    return brc_pass_run_on(s->pass.cbm_force, s->n_groups, r, NULL, NULL);
+}
+
+brc_status brc_cbm_energies(brc_simulation *s, double *elastic, double *stabilisation)
+{
+    *stabilisation = 0;
+    BRC_TRY(brc_pass_run(s->pass.cbm_energy, s->n_groups));
+    BRC_TRY(brc_beam_softening_energy(s));
+    BRC_TRY(brc_beam_closure_energy(s));
+    return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+}

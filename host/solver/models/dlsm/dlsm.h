@@ -1,0 +1,30 @@
+/* Model dlsm, shared by its files. */
+#ifndef BRC_SOLVER_MODELS_DLSM_DLSM_H
+#define BRC_SOLVER_MODELS_DLSM_DLSM_H
+
+#include "../../rings.h"
+#include "../../simulation_internal.h"
+
+/* ---- passes.c ---- */
+brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);
+brc_status brc_dlsm_make_face_passes(brc_simulation *s, const brc_face_scopes *in);
+
+/* ---- force.c ---- */
+brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r);
+brc_status brc_dlsm_energies(brc_simulation *s, double *elastic, double *stabilisation);
+/* The gradients of the state, by which its surfaces reach. */
+brc_status brc_dlsm_refresh(brc_simulation *s);
+/* Of the state only H, P and B, with which the forces of single bonds can be formed; books nothing. list (NULL: all
+ * elements): B is wanted in its ring 0, so P in ring 1 and H, where the elements moved, in ring 2, else in ring 0. */
+brc_status brc_dlsm_fluxes_of_state(brc_simulation *s, const brc_ring_list *list, bool moved);
+/* Around breaks: as brc_model_breaking says. */
+brc_status brc_dlsm_gradients_around(brc_simulation *s, const brc_force_request *r);
+brc_status brc_dlsm_replace_around(brc_simulation *s, const brc_rings *rings);
+brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
+
+/* ---- observe.c: what is read of a state ---- */
+brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
+brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out);
+double brc_dlsm_floor_bytes(const brc_simulation *s);
+
+#endif

@@ -1,0 +1,198 @@
+/* Forces and energies of dlsm: the order of its passes (docs/notebook/theory.md T2). */
+#include "../../cell_breaks_internal.h"
+#include "../../cell_softening.h"
+#include "../../closed_faces.h"
+#include "../../contact.h"
+#include "../../rims.h"
+#include "dlsm.h"
+
+/* The rings that each pass of dlsm goes over: list NULL, all elements. Where most cells are without bonds those with
+ * bonds are all that is gone over. */
+typedef struct extent {
+    const brc_ring_list *list;
+    int gradient, stress, flux, force;
+    bool whole_flux; /* of all elements all the same */
+} extent;
+
+static extent extent_of(const brc_simulation *s, const brc_force_request *r)
+{
+    if (!r->rings) return (extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
+    const bool rim = brc_rims_gain(s, r->rings); /* rings 2 and 3 are done otherwise */
+    return (extent){.list = &r->rings->around,
+                    .gradient = 0,
+                    .stress = 1,
+                    .flux = rim ? 1 : 2,
+                    .force = rim ? 1 : 3,
+                    .whole_flux = r->rings->whole_force};
+}
+
+/* H and, where faces are held, their part of G. */
+static brc_status gradients(brc_simulation *s, const brc_force_request *r, const extent *x)
+{
+    brc_held_faces *h = &s->loads.held;
+    BRC_TRY(brc_pass_over(s, s->pass.gradient, s->pass.gradient_listed, x->list, x->gradient, r, NULL));
+    if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s, x->list, x->gradient));
+    if (h->n_faces)
+        BRC_TRY(BRC_RUN_ON(s->pass.held_gradient, h->n_elements, r, NULL,
+                           {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)}));
+    return BRC_OK;
+}
+
+/* What held faces, tractions and contact add to Q. */
+static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
+{
+    brc_held_faces *h = &s->loads.held;
+    const bool touching = brc_contact_acts(s, r);
+    if (!s->loads.on_faces && !touching) return BRC_OK;
+    BRC_TRY(brc_buffer_fill_zero(s->held_moment));
+    if (touching) {
+        const brc_step_phase before = brc_phase_within(s, BRC_PHASE_PAIRS);
+        BRC_TRY(brc_contact_moments(s, r));
+        brc_phase_within(s, before);
+    }
+    if (h->n_faces)
+        BRC_TRY(BRC_RUN_ON(s->pass.held_moment, h->n_elements, r, NULL,
+                           {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)}));
+    if (r->homogeneous) return BRC_OK;
+    const brc_stage *stage = brc_current_stage(s);
+    for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
+        brc_traction_load *t = s->loads.tractions + i;
+        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
+        BRC_TRY(BRC_RUN_ON(s->pass.traction_moment, t->n, NULL, t, {"factor", BRC_COEFF(factor)}));
+    }
+    return BRC_OK;
+}
+
+/* Forces of held faces and tractions on their elements, and their work. */
+static brc_status face_forces(brc_simulation *s, const brc_force_request *r)
+{
+    brc_held_faces *h = &s->loads.held;
+    if (h->n_faces) {
+        /* the linear operator must not disturb reactions and work: the former go to scratch */
+        brc_buffer *reaction = r->homogeneous ? h->scratch : h->reaction;
+        BRC_TRY(BRC_RUN_ON(s->pass.held_force, h->n_elements, r, NULL,
+                           {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)},
+                           {"reaction", BRC_BUF(reaction)}));
+    }
+    if (r->homogeneous) return BRC_OK;
+    const brc_stage *stage = brc_current_stage(s);
+    for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
+        brc_traction_load *t = s->loads.tractions + i;
+        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
+        BRC_TRY(BRC_RUN_ON(s->pass.traction_force, t->n, r, t, {"factor", BRC_STATE(factor)}));
+        if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
+    }
+    return BRC_OK;
+}
+
+/* H, P and B. */
+static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const extent *x)
+{
+    const brc_ring_list *flux_list = x->whole_flux ? NULL : x->list;
+    BRC_TRY(gradients(s, r, x));
+    BRC_TRY(brc_closed_faces_press(s, r));
+    if (r->displacement == s->displacement && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
+    if (r->rings && brc_rims_energies_apart(s))
+        BRC_TRY(brc_rims_stress(s, r));
+    else
+        BRC_TRY(brc_pass_over(s, s->pass.stress, s->pass.stress_listed, x->list, x->stress, r, NULL));
+    BRC_TRY(face_moments(s, r));
+    const bool moments = s->loads.on_faces || brc_contact_acts(s, r);
+    if (r->rings && brc_rims_gain(s, r->rings))
+        BRC_TRY(brc_rims_flux(s, r, moments));
+    else
+        BRC_TRY(brc_pass_over(s, s->pass.flux, s->pass.flux_listed, flux_list, x->flux, r,
+                              BRC_GIVEN({"face_loads", BRC_INT(moments ? 1 : 0)})));
+    BRC_TRY(brc_closed_faces_flux(s, r, flux_list, x->flux));
+    return r->homogeneous ? BRC_OK : brc_softening_flux(s, flux_list, x->flux);
+}
+
+brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    const extent x = extent_of(s, r);
+    BRC_TRY(fluxes(s, r, &x));
+    const brc_ring_list *list = x.whole_flux ? NULL : x.list;
+    if (!r->rings && !brc_pass_is_whole(s, list, x.force))
+        BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
+    if (r->finite && !r->homogeneous && !r->rings && brc_cell_breaks_screens(s))
+        BRC_TRY(brc_cell_breaks_forces(s, r, list, x.force));
+    else
+        BRC_TRY(brc_pass_over(s, s->pass.force, s->pass.force_listed, list, x.force, r, NULL));
+    BRC_TRY(brc_closed_faces_force(s, r, list, x.force));
+    if (!r->homogeneous) BRC_TRY(brc_softening_force(s, r->force));
+    return face_forces(s, r);
+}
+
+brc_status brc_dlsm_gradients_around(brc_simulation *s, const brc_force_request *r)
+{
+    const extent x = extent_of(s, r);
+    return gradients(s, r, &x);
+}
+
+brc_status brc_dlsm_fluxes_of_state(brc_simulation *s, const brc_ring_list *list, bool moved)
+{
+    brc_force_request request = brc_force_request_of_state(s, BRC_BOOK_NOTHING);
+    request.listed_pairs = list != NULL;
+    const extent x = {.list = list, .gradient = moved ? 2 : 0, .stress = 1, .flux = 0};
+    return fluxes(s, &request, &x);
+}
+
+brc_status brc_dlsm_refresh(brc_simulation *s)
+{
+    return brc_dlsm_fluxes_of_state(s, NULL, true);
+}
+
+brc_status brc_dlsm_replace_around(brc_simulation *s, const brc_rings *rings)
+{
+    BRC_TRY(brc_rims_force(s, rings));
+    return brc_rings_replace(s, rings, brc_rims_gain(s, rings) ? 1 : 3, 3);
+}
+
+/* Energies of the elements, s->elastic_energy and s->stabilisation_energy, without those of held faces. */
+static brc_status element_energies(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    BRC_TRY(brc_pass_over(s, s->pass.energy, s->pass.energy_listed, list, ring, NULL, NULL));
+    return brc_softening_energy(s);
+}
+
+/* V psi of elements of a list ... */
+static brc_status elastic_around(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    return brc_pass_over(s, NULL, s->fracture->cells->elastic, list, ring, NULL, NULL);
+}
+/* ... and the energies of their bonds, each once. */
+static brc_status bonds_around(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    const brc_cell_breaks *c = s->fracture->cells;
+    return brc_pass_over(s, NULL, c->bonds, list, ring, NULL, NULL);
+}
+
+/* Rings 0 and 1 have other strains, bonds of ring 0 alone other energies. */
+brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
+{
+    const brc_ring_list *list = &rings->around;
+    const bool apart = brc_rims_energies_apart(s);
+    const int ring = found ? 2 : 1, ring_of_bonds = found ? 1 : 0;
+    double part[4] = {0};
+    if (!apart) BRC_TRY(element_energies(s, list, ring));
+    if (apart && found) BRC_TRY(elastic_around(s, list, ring)); /* after breaks: with their stresses */
+    if (apart) BRC_TRY(bonds_around(s, list, ring_of_bonds));
+    BRC_TRY(brc_rings_sum(s, list, ring, s->elastic_energy, &part[0]));
+    if (found) BRC_TRY(brc_rings_sum(s, list, 0, s->elastic_energy, &part[1])); /* counted when they were found */
+    BRC_TRY(brc_rings_sum(s, list, apart ? ring_of_bonds : ring, s->stabilisation_energy, &part[2]));
+    if (found && !apart) BRC_TRY(brc_rings_sum(s, list, 0, s->stabilisation_energy, &part[3]));
+    *out = part[0] - part[1] + part[2] - part[3];
+    return BRC_OK;
+}
+
+brc_status brc_dlsm_energies(brc_simulation *s, double *elastic, double *stabilisation)
+{
+    const int32_t n = s->layout->n_rows;
+    double held;
+    BRC_TRY(element_energies(s, NULL, 0));
+    BRC_TRY(brc_vector_sum(s, s->elastic_energy, n, elastic));
+    BRC_TRY(brc_vector_sum(s, s->stabilisation_energy, n, stabilisation));
+    BRC_TRY(brc_force_held_energy(s, &held));
+    *stabilisation += held;
+    return BRC_OK;
+}

@@ -1,0 +1,122 @@
+/* What is read of a state of dlsm, and the least bytes of a step. */
+#include "dlsm.h"
+#include <string.h>
+
+/* G = F - I of every element [n_elements][9]. */
+static brc_status deformation(brc_simulation *s, double *out)
+{
+    /* B is dead between force evaluations: its buffer takes G */
+    BRC_TRY(BRC_RUN(s->pass.deformation, s->n_groups, {"face_loads", BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0)},
+                    {"deformation", BRC_BUF(s->flux)}));
+    return brc_coeff_from_rows(s, s->flux, out, 9);
+}
+
+/* Green strain of G. */
+static void green(const double g[9], double e[6])
+{
+    static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    for (int c = 0; c < 6; ++c) {
+        const int i = pair[c][0], j = pair[c][1];
+        e[c] = 0.5 * (g[3 * i + j] + g[3 * j + i]);
+        for (int k = 0; k < 3; ++k)
+            e[c] += 0.5 * g[3 * k + i] * g[3 * k + j];
+    }
+}
+
+/* F Sigma F^T / det F, F = I + G */
+static void cauchy_of(const double g[9], const double sigma[6], double out[6])
+{
+    static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+    const double m[3][3] = {
+        {sigma[0], sigma[5], sigma[4]}, {sigma[5], sigma[1], sigma[3]}, {sigma[4], sigma[3], sigma[2]}};
+    double f[3][3], t[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            f[i][j] = g[3 * i + j] + (i == j);
+    const double det = f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) -
+                       f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0]) +
+                       f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            t[i][j] = f[i][0] * m[0][j] + f[i][1] * m[1][j] + f[i][2] * m[2][j];
+    for (int c = 0; c < 6; ++c) {
+        const int i = pair[c][0], j = pair[c][1];
+        out[c] = (t[i][0] * f[j][0] + t[i][1] * f[j][1] + t[i][2] * f[j][2]) / det;
+    }
+}
+
+brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
+{
+    const int64_t n = s->domain->n_elements;
+    double *g = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &g, 9 * n, "deformation"));
+    const brc_status status = deformation(s, g);
+    for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
+        double own[6], sigma[6];
+        green(g + 9 * e, own);
+        brc_hooke(s->elastic + s->material_of_element[e], own, sigma);
+        if (strain) memcpy(strain + 6 * e, own, sizeof own);
+        if (stress) memcpy(stress + 6 * e, sigma, sizeof sigma);
+        if (cauchy) cauchy_of(g + 9 * e, sigma, cauchy + 6 * e);
+    }
+    brc_memory_free(g);
+    return status;
+}
+
+brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
+{
+    const brc_domain *d = s->domain;
+    brc_buffer *element = NULL, *arm = NULL, *result = NULL;
+    int32_t *rows = NULL;
+    double *arms = NULL, *held = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, n, "faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arms, 3 * n, "faces"));
+    for (int64_t i = 0; i < n; ++i) {
+        const int64_t f = faces[i], e = d->free_element[f];
+        rows[i] = s->layout->row_of_element[e];
+        for (int c = 0; c < 3; ++c)
+            arms[3 * i + c] = d->free_centroid[3 * f + c] - d->position[3 * e + c];
+    }
+    BRC_TRY_OR(cleanup, brc_new_int(s, &element, rows, n, "faces"));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &arm, 3 * n, "faces"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, arm, arms, 3 * n));
+    BRC_TRY_OR(cleanup, brc_new_state(s, &result, 3 * n, "faces"));
+    BRC_TRY_OR(cleanup, BRC_RUN(s->pass.face_displacement, n, {"element", BRC_BUF(element)}, {"arm", BRC_BUF(arm)},
+                                {"out", BRC_BUF(result)}));
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    BRC_TRY_OR(cleanup, brc_download(s, result, bytes, out, 3 * n));
+    const brc_held_faces *h = &s->loads.held;
+    if (h->n_faces && h->value) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held, 3 * (int64_t)h->n_faces, "held faces"));
+        BRC_TRY_OR(cleanup, brc_download(s, h->value, bytes, held, 3 * (int64_t)h->n_faces));
+        for (int64_t i = 0; i < n; ++i) {
+            const int64_t at = h->index_of_free_face[faces[i]];
+            for (int c = 0; at >= 0 && c < 3; ++c)
+                if (h->component_of_face[at] >> c & 1) out[3 * i + c] = held[3 * at + c];
+        }
+    }
+cleanup:
+    brc_buffer_free(&element);
+    brc_buffer_free(&arm);
+    brc_buffer_free(&result);
+    brc_memory_free(rows);
+    brc_memory_free(arms);
+    brc_memory_free(held);
+    return status;
+}
+
+double brc_dlsm_floor_bytes(const brc_simulation *s)
+{
+    const brc_precision precision = brc_device_get_precision(s->device);
+    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
+    const double half_edges = (double)s->domain->n_half_edges, n = (double)s->domain->n_elements;
+    const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
+    const double pass1 = half_edges * (4 + 3 * coeff) + n * (3 * state + (6 + 9) * coeff);
+    const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 1 + 9 + 2 * many) * coeff;
+    const double pass3 =
+        half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 1 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
+    const double pass4 = half_edges * (4 + 4 * coeff) + n * ((9 + (9 + 1) * many) * coeff + (3 + 3) * state);
+    const double motion = n * (3 + 3 + 3 + 1 + 3 + 3) * state;
+    return pass1 + pass2 + pass3 + pass4 + motion;
+}

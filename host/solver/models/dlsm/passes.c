@@ -1,0 +1,38 @@
+/* Passes of dlsm. */
+#include "dlsm.h"
+
+brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request)
+{
+    brc_run_passes *p = &s->pass;
+    const bool whole = !s->scene->has_fracture;
+    const brc_pass_wanted of_requests[] = {
+        {&p->gradient, "dlsm_gradient", NULL, false},
+        {&p->stress, "dlsm_stress", NULL, false},
+        {&p->flux, "dlsm_flux_pass", "face_loads", false},
+        {&p->force, "dlsm_force", NULL, false},
+        {&p->gradient_listed, "dlsm_gradient_listed", BRC_LISTED, whole},
+        {&p->stress_listed, "dlsm_stress_listed", BRC_LISTED, whole},
+        {&p->flux_listed, "dlsm_flux_listed", BRC_LISTED " face_loads", whole},
+        {&p->force_listed, "dlsm_force_listed", BRC_LISTED, whole},
+    };
+    BRC_TRY(BRC_PASSES_MAKE(s, request, of_requests));
+    const brc_pass_wanted of_state[] = {
+        {&p->energy, "dlsm_energy", NULL, false},
+        {&p->energy_listed, "dlsm_energy_listed", BRC_LISTED, whole},
+        {&p->deformation, "dlsm_deformation", "face_loads deformation", false},
+        {&p->face_displacement, "face_displacement", "element arm out", false},
+    };
+    return BRC_PASSES_MAKE(s, run, of_state);
+}
+
+brc_status brc_dlsm_make_face_passes(brc_simulation *s, const brc_face_scopes *in)
+{
+    brc_run_passes *p = &s->pass;
+    BRC_TRY(BRC_PASSES(s, in->held, BRC_PASS(&p->held_gradient, "held_gradient_pass", "value"),
+                       BRC_PASS(&p->held_moment, "held_moment_pass", "value"),
+                       BRC_PASS(&p->held_force, "held_force_pass", "value reaction")));
+    BRC_TRY(BRC_PASSES(s, in->held_state, BRC_PASS(&p->held_energy, "held_energy", NULL)));
+    BRC_TRY(BRC_PASSES(s, in->held_load, BRC_PASS(&p->held_prescribe, "held_prescribe", "factor")));
+    return BRC_PASSES(s, in->traction, BRC_PASS(&p->traction_moment, "traction_moment_pass", "factor"),
+                      BRC_PASS(&p->traction_force, "traction_force_pass", "factor"));
+}

@@ -1,0 +1,58 @@
+/* Forces and energies of dlsm-published: the order of its passes (docs/notebook/theory.md T3). */
+#include "../../cell_breaks_internal.h"
+#include "published.h"
+
+brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
+    if (s->fracture)
+        BRC_TRY(brc_published_breaks_strains(s, r));
+    else
+        BRC_TRY(brc_pass_run_on(s->pass.published_strain, s->n_groups, r, NULL, NULL));
+    if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
+    return brc_pass_over(s, s->pass.published_force, s->pass.published_force_listed, list, 2, r, NULL);
+}
+
+brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r)
+{
+    const brc_stage *stage = s->loads.n_tractions > 0 ? brc_current_stage(s) : NULL;
+    for (int32_t i = 0; stage && i < s->loads.n_tractions; ++i) {
+        brc_traction_load *t = s->loads.tractions + i;
+        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
+        BRC_TRY(BRC_RUN_ON(s->pass.traction_turned, t->n, r, t, {"factor", BRC_STATE(factor)}));
+        if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings)
+{
+    return brc_rings_replace(s, rings, 2, 2);
+}
+
+/* Energies of the elements, s->elastic_energy. */
+static brc_status element_energies(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    if (brc_pass_is_whole(s, list, ring)) return brc_pass_run(s->pass.published_energy, s->layout->n_rows);
+    return brc_pass_over(s, s->pass.published_energy, s->pass.published_energy_listed, list, ring, NULL, NULL);
+}
+
+/* Rings 0 and 1 have other strains. */
+brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
+{
+    const brc_ring_list *list = &rings->around;
+    const int ring = found ? 2 : 1;
+    double part[2] = {0};
+    BRC_TRY(element_energies(s, list, ring));
+    BRC_TRY(brc_rings_sum(s, list, ring, s->elastic_energy, &part[0]));
+    if (found) BRC_TRY(brc_rings_sum(s, list, 0, s->elastic_energy, &part[1])); /* counted when they were found */
+    *out = part[0] - part[1];
+    return BRC_OK;
+}
+
+brc_status brc_published_energies(brc_simulation *s, double *elastic, double *stabilisation)
+{
+    *stabilisation = 0;
+    BRC_TRY(element_energies(s, NULL, 0));
+    return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+}

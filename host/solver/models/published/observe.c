@@ -1,0 +1,63 @@
+/* What is read of a state of dlsm-published, and the least bytes of a step. */
+#include "published.h"
+#include <string.h>
+
+brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
+{
+    const int64_t n = s->domain->n_elements;
+    double *own = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &own, 6 * n, "strains"));
+    const brc_status status = brc_coeff_from_rows(s, s->gradient, own, 6);
+    for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
+        double sigma[6];
+        brc_hooke(s->elastic + s->material_of_element[e], own + 6 * e, sigma);
+        if (strain) memcpy(strain + 6 * e, own + 6 * e, sizeof sigma);
+        if (stress) memcpy(stress + 6 * e, sigma, sizeof sigma);
+        if (cauchy) memcpy(cauchy + 6 * e, sigma, sizeof sigma);
+    }
+    brc_memory_free(own);
+    return status;
+}
+
+brc_status brc_published_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
+{
+    const brc_domain *d = s->domain;
+    double *u = NULL, *q = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * d->n_elements, "orientations"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, u, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    for (int64_t i = 0; i < n; ++i) {
+        const int64_t f = faces[i], e = d->free_element[f];
+        double a[3], once[3], twice[3];
+        const double w = q[4 * e], *v = q + 4 * e + 1;
+        for (int c = 0; c < 3; ++c)
+            a[c] = d->free_centroid[3 * f + c] - d->position[3 * e + c];
+        for (int c = 0; c < 3; ++c)
+            once[c] = v[(c + 1) % 3] * a[(c + 2) % 3] - v[(c + 2) % 3] * a[(c + 1) % 3];
+        for (int c = 0; c < 3; ++c)
+            twice[c] = v[(c + 1) % 3] * once[(c + 2) % 3] - v[(c + 2) % 3] * once[(c + 1) % 3];
+        for (int c = 0; c < 3; ++c)
+            out[3 * i + c] = u[3 * e + c] + 2 * (w * once[c] + twice[c]);
+    }
+cleanup:
+    brc_memory_free(u);
+    brc_memory_free(q);
+    return status;
+}
+
+double brc_published_floor_bytes(const brc_simulation *s)
+{
+    const brc_precision precision = brc_device_get_precision(s->device);
+    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
+    const double half_edges = (double)s->domain->n_half_edges, n = (double)s->domain->n_elements;
+    const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
+    /* strain pass: neighbour, R (S with area weights); u, q, A^-1 read, strain written */
+    const double strain =
+        half_edges * (4 + (3 + (s->scene->model.area_weights ? 1 : 0)) * coeff) + n * (7 * state + 12 * coeff);
+    /* force pass: neighbour, R, S; u, q, strain read, f and t written */
+    const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + (6 + 3 * many) * coeff + 6 * state);
+    /* motion: f, v, u, m and t, w, q, I read; v, u, w, q written */
+    return strain + force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
+}

@@ -1,0 +1,27 @@
+/* Model dlsm-published, shared by its files. */
+#ifndef BRC_SOLVER_MODELS_PUBLISHED_PUBLISHED_H
+#define BRC_SOLVER_MODELS_PUBLISHED_PUBLISHED_H
+
+#include "../../rings.h"
+#include "../../simulation_internal.h"
+
+/* ---- passes.c ---- */
+brc_status brc_published_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);
+brc_status brc_published_make_face_passes(brc_simulation *s, const brc_face_scopes *in);
+
+/* ---- force.c ---- */
+brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r);
+/* Force and torque of tractions, added to those of the request. */
+brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r);
+brc_status brc_published_energies(brc_simulation *s, double *elastic, double *stabilisation);
+/* Around breaks: as brc_model_breaking says. */
+brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings);
+brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
+
+/* ---- observe.c: what is read of a state ---- */
+brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
+/* A face moves rigidly with its element. */
+brc_status brc_published_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out);
+double brc_published_floor_bytes(const brc_simulation *s);
+
+#endif
