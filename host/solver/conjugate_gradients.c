@@ -9,10 +9,10 @@ static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
     brc_force_request r = {.displacement = v->p.move,
                            .force = v->kp.move,
                            .orientation = v->orientation,
-                           .torque = brc_is_beams(s) ? v->kp.turn : v->z.move,
+                           .torque = v->kp.turn ? v->kp.turn : v->z.move,
                            .homogeneous = true};
-    if (brc_is_dlsm(s)) return brc_force_evaluate(s, &r);
-    brc_buffer *theta = brc_is_beams(s) ? v->p.turn : rotations ? v->p.move : v->zero;
+    if (!s->model->turns) return brc_force_evaluate(s, &r);
+    brc_buffer *theta = v->p.turn ? v->p.turn : rotations ? v->p.move : v->zero;
     BRC_TRY(brc_vector_small_rotation(s, theta, v->orientation));
     if (rotations) r.displacement = v->zero, r.force = v->z.move, r.torque = v->kp.move;
     return brc_force_evaluate(s, &r);

@@ -123,7 +123,7 @@ brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l,
     int64_t twice = 0;
     double *flags = NULL, *direction = NULL;
     brc_status status = BRC_OK;
-    if (!s->model->turns || (brc_is_published(s) && stage->solver != BRC_SOLVER_DYNAMIC))
+    if (!s->model->turns || (stage->solver != BRC_SOLVER_DYNAMIC && !brc_solves_rotations(s->model)))
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "stage '%s': element_rotation needs elements with rotations: model cbm, or dlsm-published in a "
                         "dynamic stage",

@@ -11,4 +11,7 @@ void brc_guard_tell_element(brc_simulation *s, int64_t e, char *text, size_t siz
  * closure where that alone is wrong [-], else 0. */
 void brc_guard_tell_cause(const brc_simulation *s, int64_t e, double off, char *text, size_t size);
 
+/* Words after those that are there. */
+void brc_text_append(char *text, size_t size, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
 #endif

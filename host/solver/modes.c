@@ -111,7 +111,7 @@ static brc_status multiply(mode_space *t, const double *in, double *out)
 {
     brc_simulation *s = t->s;
     BRC_TRY(brc_upload_state(s, t->in, in, t->n));
-    if (brc_is_published(s)) {
+    if (s->model->turns) {
         BRC_TRY(brc_buffer_fill_zero(t->torque));
         BRC_TRY(brc_vector_small_rotation(s, t->torque, t->orientation));
     }
@@ -260,7 +260,7 @@ static brc_status rayleigh_ritz(mode_space *t, int count, const double *k_small,
         }
     double *vectors = reduced;
     int failed;
-    if (brc_is_published(t->s)) {
+    if (!t->s->model->statics->symmetric) {
         vectors = basis;
         failed = LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'V', kept, reduced, kept, spread, imaginary, NULL, kept, vectors,
                                kept);
@@ -429,7 +429,8 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         brc_progress_update(progress, round + 1);
         s->static_report.iterations = round + 1;
         if (worst < settled) goto cleanup;
-        if ((round + 1) % WATCH == 0 && change_since(values, before, m - GUARD_VECTORS) < steady[brc_is_published(s)])
+        if ((round + 1) % WATCH == 0 &&
+            change_since(values, before, m - GUARD_VECTORS) < steady[!s->model->statics->symmetric])
             goto cleanup;
         if (brc_leaves_off(s)) goto cleanup;
         if (s->interrupted) {
@@ -463,7 +464,7 @@ brc_status brc_modes_run(brc_simulation *s)
     brc_progress *progress = NULL;
     double *values = NULL;
     brc_status status = BRC_OK;
-    if (brc_is_beams(s))
+    if (!s->model->statics || s->model->statics->rotations)
         return BRC_FAIL(
             s->context, BRC_BAD_INPUT,
             "stage '%s': free vibration modes are there for dlsm and dlsm-published; take them for cbm from a "

@@ -6,11 +6,10 @@
 
 brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
 {
-    const int64_t n = s->layout->n_rows, width = brc_is_beams(s) ? 21 : 6;
+    const int64_t n = s->layout->n_rows, width = brc_solves_rotations(s->model) ? 21 : 6;
     double *blocks = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
-    brc_status status =
-        brc_is_beams(s) ? brc_beams_precondition_blocks(s, blocks) : brc_geometry_precondition_blocks(s, blocks);
+    brc_status status = s->model->statics->blocks(s, blocks);
     if (status == BRC_OK) status = brc_upload_state(s, v->preconditioner.blocks, blocks, width * n);
     brc_memory_free(blocks);
     return status;
@@ -20,13 +19,13 @@ brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, boo
 {
     const int32_t n = s->layout->n_rows;
     if (v->preconditioner.multigrid && !rotations) return brc_multigrid_apply(v->preconditioner.multigrid, v->r, v->z);
-    if (brc_is_beams(s))
+    if (v->r.turn)
         BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks),
                            BRC_BUF(v->r.move), BRC_BUF(v->r.turn), BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
     else
         BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move),
                            BRC_BUF(v->z.move)));
-    if (brc_is_beams(s)) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
+    if (v->z.turn) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
     return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
 }
 

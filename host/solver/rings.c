@@ -182,10 +182,10 @@ brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pas
     return brc_pass_run_on(listed, (n + lanes - 1) / lanes, request, NULL, all);
 }
 
-/* Of dlsm, whose law has an energy, and steps of velocity Verlet. */
+/* Of laws that have an energy, and steps of velocity Verlet. */
 static bool books_jumps(const brc_simulation *s, const brc_rings *r)
 {
-    return brc_is_dlsm(s) && s->lost_numerical && r->half_kick > 0;
+    return s->model->conserves && s->lost_numerical && r->half_kick > 0;
 }
 
 /* r->force holds the gain: prescribed elements swing about nothing. */

@@ -132,7 +132,7 @@ static brc_status make_load_passes(brc_simulation *s, const brc_scope *run, cons
 static brc_status find_kernels(brc_simulation *s)
 {
     brc_kernels *k = &s->kernel;
-    const bool beams = brc_is_beams(s), turns = s->model->turns;
+    const bool rotations = brc_solves_rotations(s->model), turns = s->model->turns;
     const struct {
         brc_kernel **slot;
         const char *name;
@@ -143,8 +143,8 @@ static brc_status find_kernels(brc_simulation *s)
                   {&k->sum, "vector_sum", true},
                   {&k->gather, "vector_gather", s->scene->has_fracture},
                   {&k->precondition, "block_precondition", true},
-                  {&k->precondition6, "block6_precondition", beams},
-                  {&k->turn_orientation, "turn_orientation", beams},
+                  {&k->precondition6, "block6_precondition", rotations},
+                  {&k->turn_orientation, "turn_orientation", rotations},
                   {&k->small_rotation, "small_rotation", turns}};
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
         if (wanted[i].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[i].name, wanted[i].slot));

@@ -24,7 +24,7 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
     brc_status status = BRC_OK;
     for (int32_t i = 0; i < s->loads.n_imposed; ++i)
         if (s->loads.imposed[i].load >= 0) return BRC_OK;
-    if (!brc_is_beams(s) || s->loads.n_turns > 0) return BRC_OK;
+    if (!brc_solves_rotations(s->model) || s->loads.n_turns > 0) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));
@@ -64,7 +64,8 @@ brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, b
     BRC_TRY(brc_loads_zero_imposed(s, s->force));
     BRC_TRY(balance_free_body(s, finite));
     double square;
-    BRC_TRY(brc_statics_square(s, v, (brc_unknowns){s->force, brc_is_beams(s) ? s->torque : NULL}, &square));
+    BRC_TRY(
+        brc_statics_square(s, v, (brc_unknowns){s->force, brc_solves_rotations(s->model) ? s->torque : NULL}, &square));
     *norm = sqrt(square);
     return isfinite(square) ? BRC_OK
                             : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
@@ -121,6 +122,18 @@ brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
     return BRC_OK;
 }
 
+static bool solves_rotations(const brc_wants *w)
+{
+    return brc_solves_rotations(w->model);
+}
+static bool solves_moves(const brc_wants *w)
+{
+    return !brc_solves_rotations(w->model);
+}
+static bool settles_rotations(const brc_wants *w)
+{
+    return w->model->statics && w->model->statics->settle;
+}
 static bool statics(const brc_wants *w)
 {
     bool any = false;
@@ -133,7 +146,7 @@ static bool statics(const brc_wants *w)
 #define UNKNOWNS(name, member)                                                                                         \
     {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT},               \
     {                                                                                                                  \
-        name "_turn", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_spheres, AT(member.turn), "static solver", "-",      \
+        name "_turn", brc_each_row, 3, BRC_FIELD_STATE, solves_rotations, AT(member.turn), "static solver", "-",       \
             BRC_NOT_KEPT                                                                                               \
     }
 static const brc_field_row rows[] = {
@@ -144,13 +157,13 @@ static const brc_field_row rows[] = {
     UNKNOWNS("kp", kp),
     {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m",
      BRC_KEPT("static.before", BRC_KEEP_ALL)},
-    {"zero", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_rigid_cells, AT(zero), "static solver", "-", BRC_NOT_KEPT},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, settles_rotations, AT(zero), "static solver", "-", BRC_NOT_KEPT},
     {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-",
      BRC_NOT_KEPT},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_spheres, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
-    {"block", brc_each_row, 6, BRC_FIELD_STATE, brc_wants_cells, AT(preconditioner.blocks), "preconditioner", "-",
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, solves_rotations, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, solves_moves, AT(preconditioner.blocks), "preconditioner", "-",
      BRC_NOT_KEPT},
-    {"block", brc_each_row, 21, BRC_FIELD_STATE, brc_wants_spheres, AT(preconditioner.blocks), "preconditioner", "-",
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, solves_rotations, AT(preconditioner.blocks), "preconditioner", "-",
      BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
@@ -160,7 +173,7 @@ static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
     v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     v->arm = 1;
     BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
-    if (brc_is_beams(s)) {
+    if (s->domain->radius) {
         double sum = 0;
         for (int64_t e = 0; e < s->domain->n_elements; ++e)
             sum += s->domain->radius[e];
@@ -180,55 +193,15 @@ static void free_vectors(brc_solve_vectors *v)
 double brc_statics_tolerance(const brc_simulation *s)
 {
     static const double by_precision[] = {[BRC_DOUBLE] = 1e-10, [BRC_MIXED] = 1e-6, [BRC_SINGLE] = 1e-5};
-    /* Forces of dlsm-published balance a total moment only together with its rotations, so that its displacements alone
-     * reach equilibrium to some 1e-6 of the load (measured on cubes of 512 cells), not to rounding. */
-    static const double published = 1e-5;
     const double asked = brc_current_stage(s)->tolerance, own = by_precision[brc_device_get_precision(s->device)];
     if (asked > 0) return asked;
-    return brc_is_published(s) && own < published ? published : own;
+    return fmax(own, s->model->statics->least_tolerance);
 }
 
 int32_t brc_statics_most_iterations(const brc_simulation *s)
 {
     const int32_t asked = brc_current_stage(s)->max_iterations;
     return asked > 0 ? asked : 20000 + (int32_t)(200 * cbrt((double)s->domain->n_elements));
-}
-
-/* Take the mean torque off: turning every element alike costs nothing, so only the rest can be balanced. */
-static brc_status remove_mean(brc_simulation *s, brc_buffer *torque)
-{
-    const int64_t n = s->domain->n_elements;
-    double *t = NULL, mean[3] = {0, 0, 0};
-    BRC_TRY(BRC_ALLOCATE(s->context, &t, 3 * n, "torques"));
-    brc_status status = brc_state_from_rows(s, torque, t, 3);
-    for (int64_t i = 0; i < 3 * n; ++i)
-        mean[i % 3] += t[i] / (double)n;
-    for (int64_t i = 0; i < 3 * n; ++i)
-        t[i] -= mean[i % 3];
-    if (status == BRC_OK) status = brc_state_to_rows(s, torque, t, 3, 0);
-    brc_memory_free(t);
-    return status;
-}
-
-/* Rotations of dlsm-published that balance the torques of the displacements just found, into the orientations. */
-static brc_status settle_rotations(brc_simulation *s, brc_solve_vectors *v, brc_progress *progress)
-{
-    double square, left;
-    BRC_TRY(brc_vector_small_rotation(s, v->zero, v->orientation));
-    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
-                                                       .force = v->z.move,
-                                                       .orientation = v->orientation,
-                                                       .torque = v->r.move,
-                                                       .homogeneous = true}));
-    BRC_TRY(s->model->late_tractions(s, &(brc_force_request){.displacement = s->displacement,
-                                                             .force = v->z.move,
-                                                             .orientation = v->orientation,
-                                                             .torque = v->r.move,
-                                                             .t = s->load_factor}));
-    BRC_TRY(remove_mean(s, v->r.move));
-    BRC_TRY(brc_statics_square(s, v, v->r, &square));
-    BRC_TRY(brc_conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
-    return brc_vector_small_rotation(s, v->x.move, s->orientation);
 }
 
 /* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of
@@ -238,7 +211,7 @@ static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t incre
 {
     const int64_t bytes = 3 * (int64_t)s->layout->n_rows * v->state_bytes;
     const brc_unknowns state = {s->displacement, NULL};
-    if (increment == 1 || brc_is_beams(s)) return brc_buffer_copy(v->before, s->displacement, bytes);
+    if (increment == 1 || brc_solves_rotations(s->model)) return brc_buffer_copy(v->before, s->displacement, bytes);
     BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, bytes)); /* u becomes 2 u - before */
     BRC_TRY(brc_unknowns_add(s, -1, (brc_unknowns){v->before, NULL}, state));
     BRC_TRY(brc_unknowns_add(s, 1, v->z, state));
@@ -250,7 +223,7 @@ static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
 {
     const int32_t n = s->layout->n_rows;
     BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
-    if (!brc_is_beams(s)) return BRC_OK;
+    if (!brc_solves_rotations(s->model)) return BRC_OK;
     if (finite)
         return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
     return brc_vector_small_rotation(s, v->theta, s->orientation);
@@ -300,7 +273,8 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     const brc_stage *stage = brc_current_stage(s);
     static const double most_of_rounding = 1e-6; /* of the load; what is worse is no equilibrium, whatever the reason */
     const double tolerance = brc_statics_tolerance(s);
-    const bool published = brc_is_published(s), finite = stage->finite_strain && !published;
+    const brc_model_statics *by = s->model->statics;
+    const bool finite = stage->finite_strain && !by->linear;
     const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
     double norm, left,
         last = INFINITY,
@@ -330,20 +304,20 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a
          * residual about the moved sample a part as large as its strain is left in it, on which conjugate gradients
          * would break down */
-        if (!published) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
+        if (by->symmetric) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(brc_preconditioner_prepare(s, v));
         const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, lasting) : 0,
                      target = fmax(0.3 * tolerance * *reference, worth * norm);
-        BRC_TRY(published ? brc_gmres(s, v, target, most, progress, &left)
-                          : brc_conjugate_gradients(s, v, false, target, most, progress, &left));
+        BRC_TRY(by->symmetric ? brc_conjugate_gradients(s, v, false, target, most, progress, &left)
+                              : brc_gmres(s, v, target, most, progress, &left));
         BRC_TRY(correct(s, v, finite));
         BRC_TRY(brc_statics_residual(s, v, finite, &norm));
         s->static_report.corrections += 1;
         if (s->left_off) break;
     }
     s->static_report.residual = *reference > 0 ? norm / *reference : 0;
-    return published ? settle_rotations(s, v, progress) : BRC_OK;
+    return by->settle ? by->settle(s, v, progress) : BRC_OK;
 }
 
 brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double factor)
@@ -387,7 +361,7 @@ static bool is_proportional(const brc_table *t)
 brc_status brc_statics_solve_at(brc_simulation *s, brc_static_run *run, brc_progress *progress)
 {
     BRC_TRY(brc_loads_prescribe(s, s->load_factor));
-    if (brc_is_beams(s)) BRC_TRY(read_theta(s, &run->vectors));
+    if (brc_solves_rotations(s->model)) BRC_TRY(read_theta(s, &run->vectors));
     BRC_TRY(solve_increment(s, &run->vectors, &run->reference, progress));
     return brc_force_of_state(s, BRC_BOOK_WORK);
 }
@@ -526,6 +500,10 @@ brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_sto
     brc_progress *progress = NULL;
     brc_status status = BRC_OK;
     double n_bonds = 0;
+    for (int32_t k = 0; k < n; ++k)
+        if (!part[k]->model->statics)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': model %s has no static stages; use a dynamic one",
+                            stage->name, brc_model_name(part[k]->scene->model.kind));
     if (stage->most_events > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "events"));
     if (stage->to_failure > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "to_failure"));
     for (int32_t k = 0; k < n; ++k)

@@ -143,28 +143,27 @@ cleanup:
 
 brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_time_step *out)
 {
-    *out = (brc_time_step){.published = brc_is_beams(s) ? 0 : published_rule(s)};
+    *out = (brc_time_step){.published = brc_has_spheres(s) ? 0 : published_rule(s)};
     switch (stage->time_step_rule) {
     case BRC_TIME_STEP_FIXED:
         out->value = stage->time_step;
         out->governed_by = "fixed";
         break;
     case BRC_TIME_STEP_PUBLISHED:
-        if (brc_is_beams(s))
-            return BRC_FAIL(
-                s->context, BRC_BAD_INPUT,
-                "stage '%s': the published rule for the time step is one for cells, model cbm has none; use "
-                "time_step: auto",
-                stage->name);
+        if (brc_has_spheres(s))
+            return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                            "stage '%s': the published rule for the time step is one for cells, model %s has none; use "
+                            "time_step: auto",
+                            stage->name, brc_model_name(s->scene->model.kind));
         out->value = out->published;
         out->governed_by = "published: AGH19 eq. 39";
         break;
     default: out->governed_by = "auto: power iteration";
     }
-    if (brc_is_beams(s) &&
-        stage->time_step_rule == BRC_TIME_STEP_AUTO) { /* rigorous, so no margin of its own is needed */
-        BRC_TRY(brc_beams_node_bound(s, &out->critical));
-        out->governed_by = "auto: node bound";
+    const brc_model_step_bound *bound = s->model->step_bound;
+    if (bound && stage->time_step_rule == BRC_TIME_STEP_AUTO) { /* rigorous, so no margin of its own is needed */
+        BRC_TRY(bound->find(s, &out->critical));
+        out->governed_by = bound->name;
     } else {
         BRC_TRY(critical_step(s, &out->critical));
     }
@@ -173,7 +172,7 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
     if (isfinite(touching)) { /* squares of frequencies of two springs on one mass add at most */
         if (stage->time_step_rule == BRC_TIME_STEP_AUTO)
             out->governed_by = touching < out->critical ? "auto: contact"
-                               : brc_is_beams(s)        ? "auto: node bound and contact"
+                               : bound                  ? bound->with_contact
                                                         : "auto: power iteration and contact";
         out->critical = 1 / sqrt(1 / (out->critical * out->critical) + 1 / (touching * touching));
     }

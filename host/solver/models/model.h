@@ -10,6 +10,8 @@ struct brc_simulation;
 struct brc_scope;
 struct brc_force_request;
 struct brc_rings;
+struct brc_solve_vectors;
+struct brc_progress;
 
 /* How contact sees the surface of an element: as kernels number it (contact_body.h). */
 typedef enum brc_surface { BRC_SURFACE_SPHERE, BRC_SURFACE_AFFINE, BRC_SURFACE_RIGID } brc_surface;
@@ -38,6 +40,29 @@ typedef struct brc_model_breaking {
     brc_status (*energy_around)(struct brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
 } brc_model_breaking;
 
+/* How a model is solved for equilibrium. */
+typedef struct brc_model_statics {
+    bool rotations;         /* are unknowns beside displacements */
+    bool symmetric;         /* the linearised operator: conjugate gradients, else restarted GMRES */
+    bool linear;            /* equilibrium is that of the linearised law, whatever the stage asks for */
+    double least_tolerance; /* that displacements reach by themselves [-]; 0: that of the precision */
+    double soft; /* of multigrid: stiffness that a rigid motion of a piece meets [-]; 0: by the precision (fine.c) */
+    /* Inverses of diagonal blocks [n_rows][6], with rotations [n_rows][21]. */
+    brc_status (*blocks)(struct brc_simulation *s, double *out);
+    /* After a solve of displacements: the rotations that balance them; NULL: nothing is left. */
+    brc_status (*settle)(struct brc_simulation *s, struct brc_solve_vectors *v, struct brc_progress *progress);
+    /* Bond between elements for multigrid, of a length and its square: stiffness along and across it [N/m], of its
+     * ends' rotation across and along it [N m]; NULL: that of the solid. */
+    void (*bond)(const struct brc_simulation *s, int64_t e, int64_t other, double length, double square,
+                 double stiffness[4]);
+} brc_model_statics;
+
+/* A bound of the critical time step that needs no power iteration, and what a report calls it. */
+typedef struct brc_model_step_bound {
+    brc_status (*find)(struct brc_simulation *s, double *out);
+    const char *name, *with_contact;
+} brc_model_step_bound;
+
 typedef struct brc_bond_model {
     brc_element_kind element; /* that it takes */
     bool turns;               /* elements have rotations of their own */
@@ -64,8 +89,19 @@ typedef struct brc_bond_model {
     /* Averaged over `level` shells of neighbours; NULL: stress is not a sum over bonds. */
     brc_status (*virial_stress)(struct brc_simulation *s, int level, double *stress);
 
+    const brc_model_statics *statics;       /* NULL: dynamic stages alone */
+    const brc_model_step_bound *step_bound; /* NULL: power iteration of the forces */
+    bool conserves;                         /* the law has an energy */
+    /* Why a run of this model may have lost its energy balance, appended to text; NULL: nothing of its own. */
+    void (*explain_loss)(const struct brc_simulation *s, char *text, size_t size);
     const brc_model_breaking *breaking; /* NULL: criteria of elements alone */
 } brc_bond_model;
+
+/* Whether equilibrium has rotations as unknowns. */
+static inline bool brc_solves_rotations(const brc_bond_model *model)
+{
+    return model->statics && model->statics->rotations;
+}
 
 /* The descriptor of a kind. */
 const brc_bond_model *brc_bond_model_of(brc_model_kind kind);

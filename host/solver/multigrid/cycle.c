@@ -3,8 +3,8 @@
 #include "../../base/random.h"
 #include <math.h>
 
-/* Force and torque of beams, added to the right side. */
-static brc_status beams_residual(brc_multigrid *m, brc_unknowns x, brc_unknowns right, brc_unknowns out)
+/* Force and torque of the model's own linear law, added to the right side. */
+static brc_status own_residual(brc_multigrid *m, brc_unknowns x, brc_unknowns right, brc_unknowns out)
 {
     brc_simulation *s = m->s;
     const int32_t n = s->layout->n_rows;
@@ -32,8 +32,8 @@ brc_status brc_level_residual(brc_multigrid *m, int level, brc_unknowns x, brc_u
         return BRC_LAUNCH(m->kernel.matrix, l->n, BRC_INT(l->n), BRC_BUF(l->start), BRC_BUF(l->column),
                           BRC_BUF(l->block), BRC_BUF(x.move), BRC_BUF(x.turn), BRC_INT(n_right), BRC_BUF(right.move),
                           BRC_BUF(right.turn), BRC_BUF(out.move), BRC_BUF(out.turn));
-    if (brc_is_beams(s)) return beams_residual(m, x, right, out);
-    const bool by_branch = brc_is_published(s);
+    if (brc_solves_rotations(s->model)) return own_residual(m, x, right, out);
+    const bool by_branch = s->model->turns; /* which cells that turn store */
     BRC_TRY(BRC_LAUNCH(m->kernel.cells, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
                        BRC_BUF(by_branch ? s->offset : s->area), BRC_BUF(by_branch ? s->area : s->ratio),
                        BRC_INT(by_branch ? 1 : 0), BRC_COEFF(m->moduli.axial), BRC_COEFF(m->moduli.shear),

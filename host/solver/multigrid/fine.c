@@ -40,13 +40,10 @@ static bond bond_of(const brc_fine *f, int64_t e, int64_t h)
     b.length = sqrt(square);
     for (int c = 0; c < 3; ++c)
         b.n[c] /= b.length;
-    if (brc_is_beams(s)) {
-        const brc_beam *own = brc_beam_of_element(s, e), *other = brc_beam_of_element(s, j);
-        const double bend = in_series(own->bend, other->bend) / b.length;
-        b.axial = in_series(own->axial, other->axial) / b.length;
-        b.shear = 6 * bend / square;
-        b.bend = 0.5 * bend;
-        b.twist = in_series(own->twist, other->twist) / b.length;
+    if (s->model->statics->bond) {
+        double k[4];
+        s->model->statics->bond(s, e, j, b.length, square, k);
+        b.axial = k[0], b.shear = k[1], b.bend = k[2], b.twist = k[3];
         return b;
     }
     const brc_bond_moduli *own = &f->moduli[s->material_of_element[e]], *other = &f->moduli[s->material_of_element[j]];
@@ -220,7 +217,9 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
     if (s->fracture) BRC_TRY(brc_fracture_whole_at(s, moment, &f->whole));
     /* what a rigid motion of a piece meets: enough for the rounding of its sums, and so little that no bending is near
      * it */
-    f->soft = brc_is_published(s) ? 1e-6 : brc_device_get_precision(s->device) == BRC_SINGLE ? 1e-5 : 1e-10;
+    f->soft = s->model->statics->soft > 0                         ? s->model->statics->soft
+              : brc_device_get_precision(s->device) == BRC_SINGLE ? 1e-5
+                                                                  : 1e-10;
     f->nodes = (brc_nodes){.n = d->n_elements};
     BRC_TRY(BRC_ALLOCATE(s->context, &f->nodes.place, d->n_elements, "levels"));
     BRC_TRY(BRC_ALLOCATE(s->context, &f->nodes.body, d->n_elements, "levels"));

@@ -74,7 +74,8 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
     int32_t *rows = NULL;
     brc_status status = BRC_OK;
     m->moduli = f->moduli[s->material_of_element[0]];
-    if (brc_is_beams(s)) return brc_new_state(s, &m->orientation, 4 * (int64_t)s->layout->n_rows, "multigrid");
+    if (brc_solves_rotations(s->model))
+        return brc_new_state(s, &m->orientation, 4 * (int64_t)s->layout->n_rows, "multigrid");
     if (brc_device_has_many_materials(s->device)) {
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &moduli, 3 * (int64_t)s->layout->n_rows, "multigrid"));
         for (int32_t r = 0; r < s->layout->n_rows; ++r) {

@@ -11,6 +11,9 @@ brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const br
 brc_status brc_cbm_evaluate(brc_simulation *s, const brc_force_request *r);
 brc_status brc_cbm_energies(brc_simulation *s, double *elastic, double *stabilisation);
 
+/* ---- statics.c ---- */
+void brc_cbm_bond(const brc_simulation *s, int64_t e, int64_t other, double length, double square, double stiffness[4]);
+
 /* ---- observe.c: what is read of a state ---- */
 /* Virial stress over an element and its neighbours, and the strain it means. */
 brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);

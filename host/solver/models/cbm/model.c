@@ -1,5 +1,19 @@
 /* Model cbm: spheres joined by beams, NAH19 (docs/notebook/beams.md). */
+#include "../../guard_cause.h"
 #include "cbm.h"
+
+static const brc_model_statics statics = {
+    .rotations = true, .symmetric = true, .blocks = brc_beams_precondition_blocks, .bond = brc_cbm_bond};
+static const brc_model_step_bound step_bound = {brc_beams_node_bound, "auto: node bound",
+                                                "auto: node bound and contact"};
+
+static void explain_loss(const brc_simulation *s, char *text, size_t size)
+{
+    (void)s;
+    brc_text_append(
+        text, size,
+        "beams that were stretched or bent far beyond their law (sections turned by more than a right angle)");
+}
 
 extern const brc_bond_model brc_cbm;
 const brc_bond_model brc_cbm = {
@@ -13,4 +27,8 @@ const brc_bond_model brc_cbm = {
     .floor_bytes = brc_cbm_floor_bytes,
     .strain_stress = brc_cbm_strain_stress,
     .virial_stress = brc_beams_stress,
+    .statics = &statics,
+    .step_bound = &step_bound,
+    .conserves = true,
+    .explain_loss = explain_loss,
 };

@@ -10,6 +10,8 @@ static const brc_model_breaking breaking = {.gradients_around = brc_dlsm_gradien
                                             .replace_around = brc_dlsm_replace_around,
                                             .energy_around = brc_dlsm_energy_around};
 
+static const brc_model_statics statics = {.symmetric = true, .blocks = brc_geometry_precondition_blocks};
+
 extern const brc_bond_model brc_dlsm;
 const brc_bond_model brc_dlsm = {
     .element = BRC_ELEMENT_CELL,
@@ -24,5 +26,7 @@ const brc_bond_model brc_dlsm = {
     .floor_bytes = brc_dlsm_floor_bytes,
     .strain_stress = brc_dlsm_strain_stress,
     .face_displacement = brc_dlsm_face_displacement,
+    .statics = &statics,
+    .conserves = true,
     .breaking = &breaking,
 };

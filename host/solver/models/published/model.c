@@ -1,8 +1,26 @@
 /* Model dlsm-published: the published law, AGH19 (docs/notebook/theory.md T3). */
+#include "../../guard_cause.h"
 #include "published.h"
 
 static const brc_model_breaking breaking = {.replace_around = brc_published_replace_around,
                                             .energy_around = brc_published_energy_around};
+
+/* Forces balance a total moment only together with rotations, so that displacements alone reach equilibrium to some
+ * 1e-6 of the load (measured on cubes of 512 cells), not to rounding. */
+static const brc_model_statics statics = {.linear = true,
+                                          .least_tolerance = 1e-5,
+                                          .soft = 1e-6,
+                                          .blocks = brc_geometry_precondition_blocks,
+                                          .settle = brc_published_settle};
+
+static void explain_loss(const brc_simulation *s, char *text, size_t size)
+{
+    brc_text_append(
+        text, size,
+        "the published law has no energy and diverges after thousands of steps (docs/notebook/theory.md): "
+        "use model dlsm, %stchamwa-wielgosz with a larger phi",
+        s->scene->model.couple_modulus > 0 ? "or " : "a couple_modulus of 0.5 where strains or turns are large, or ");
+}
 
 extern const brc_bond_model brc_published;
 const brc_bond_model brc_published = {
@@ -18,5 +36,7 @@ const brc_bond_model brc_published = {
     .floor_bytes = brc_published_floor_bytes,
     .strain_stress = brc_published_strain_stress,
     .face_displacement = brc_published_face_displacement,
+    .statics = &statics,
+    .explain_loss = explain_loss,
     .breaking = &breaking,
 };

@@ -18,6 +18,10 @@ brc_status brc_published_energies(brc_simulation *s, double *elastic, double *st
 brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings);
 brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
 
+/* ---- statics.c ---- */
+/* Rotations that balance the torques of the displacements just found, into the orientations. */
+brc_status brc_published_settle(brc_simulation *s, struct brc_solve_vectors *v, struct brc_progress *progress);
+
 /* ---- observe.c: what is read of a state ---- */
 brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
 /* A face moves rigidly with its element. */
