@@ -1,6 +1,6 @@
 /* Every kernel, in one translation unit: what an instance of the C builds and an OpenCL program are made of. */
 #include "portable.h"
-#include "vec.h"
+#include "records.h"
 #include "svec.h"
 #include "elastic_svk.h"
 #include "dlsm_gradient.h"

@@ -129,26 +129,6 @@ LAW lane_state state_load(const state *restrict p, brc_size at) { return *(const
 LAW lane_int int_load(const int *restrict p, brc_size at) { return *(const int_anywhere *)(p + at); }
 LAW void int_store(int *restrict p, brc_size at, lane_int a) { *(int_anywhere *)(p + at) = a; }
 #endif
-#ifdef LANE_SHUFFLE
-#ifdef __OPENCL_VERSION__
-typedef BRC_JOIN(STATE_NAME, 4) state_quad;
-LAW state_quad state_quad_load(GLOBAL const state *restrict p, brc_size at) { return vload4(0, p + at); }
-#else
-typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
-typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
-LAW state_quad state_quad_load(const state *restrict p, brc_size at) { return *(const quad_anywhere *)(p + at); }
-#endif
-#endif
-
-#ifdef LANE_SHUFFLE
-/* p[a .. a + 3], p[b .. b + 3] */
-LAW lane_state state_load_pair(GLOBAL const state *restrict p, brc_size a, brc_size b)
-{
-    const state_quad low = state_quad_load(p, a), high = state_quad_load(p, b);
-    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-#endif
-
 /* W consecutive element numbers from first. */
 LAW lane_int lane_own(int first)
 {
@@ -198,176 +178,14 @@ LAW lane_int lane_rank(lane_int keep)
 #endif
 }
 
-/* Gathers of [element][n]: row holds the element of each lane. Eight lanes of one record each are read as eight vectors
- * and transposed, which takes a third of the shuffles of filling vectors number by number (measured: dlsm +35 %, docs/
- * performance.md). A record shorter than its vector reads into the next one: arrays end with spare room
- * (LANE_SPARE). */
-LAW lane gather_component(GLOBAL const coeff *restrict p, lane_int at)
-{
-#ifdef LANE_GATHER
-    return LANE_GATHER(p, at);
-#else
-#define ITEM(l) p[LANE_ITEM(at, l)]
-    return LANE_MAKE(lane, ITEM);
-#undef ITEM
-#endif
-}
-LAW lane_state gather_state_component(GLOBAL const state *restrict p, lane_int at)
-{
-#define ITEM(l) p[LANE_ITEM(at, l)]
-    return LANE_MAKE(lane_state, ITEM);
-#undef ITEM
-}
 typedef struct {
     lane_state x, y, z;
 } state_vec3;
-#ifdef LANE_SHUFFLE
-/* Stages of the 8 x 8 transposition: numbers, pairs, quads of two vectors. */
-#define LANE_ZIP_LOW(a, b) LANE_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14)
-#define LANE_ZIP_HIGH(a, b) LANE_SHUFFLE(a, b, 1, 9, 3, 11, 5, 13, 7, 15)
-#define LANE_PAIRS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
-#define LANE_PAIRS_HIGH(a, b) LANE_SHUFFLE(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
-#define LANE_QUADS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
-#define LANE_QUADS_HIGH(a, b) LANE_SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
-typedef struct {
-    lane c0, c1, c2, c3, c4, c5, c6, c7;
-} lane_columns;
-LAW lane_columns lane_gather_columns(GLOBAL const coeff *restrict p, lane_int at)
-{
-    const lane r0 = lane_load(p, (brc_size)LANE_ITEM(at, 0)), r1 = lane_load(p, (brc_size)LANE_ITEM(at, 1)),
-               r2 = lane_load(p, (brc_size)LANE_ITEM(at, 2));
-    const lane r3 = lane_load(p, (brc_size)LANE_ITEM(at, 3)), r4 = lane_load(p, (brc_size)LANE_ITEM(at, 4)),
-               r5 = lane_load(p, (brc_size)LANE_ITEM(at, 5));
-    const lane r6 = lane_load(p, (brc_size)LANE_ITEM(at, 6)), r7 = lane_load(p, (brc_size)LANE_ITEM(at, 7));
-    const lane a0 = LANE_ZIP_LOW(r0, r1), a1 = LANE_ZIP_HIGH(r0, r1), a2 = LANE_ZIP_LOW(r2, r3),
-               a3 = LANE_ZIP_HIGH(r2, r3);
-    const lane a4 = LANE_ZIP_LOW(r4, r5), a5 = LANE_ZIP_HIGH(r4, r5), a6 = LANE_ZIP_LOW(r6, r7),
-               a7 = LANE_ZIP_HIGH(r6, r7);
-    const lane b0 = LANE_PAIRS_LOW(a0, a2), b1 = LANE_PAIRS_LOW(a1, a3), b2 = LANE_PAIRS_HIGH(a0, a2),
-               b3 = LANE_PAIRS_HIGH(a1, a3);
-    const lane b4 = LANE_PAIRS_LOW(a4, a6), b5 = LANE_PAIRS_LOW(a5, a7), b6 = LANE_PAIRS_HIGH(a4, a6),
-               b7 = LANE_PAIRS_HIGH(a5, a7);
-    return (lane_columns){LANE_QUADS_LOW(b0, b4),  LANE_QUADS_LOW(b1, b5),  LANE_QUADS_LOW(b2, b6),
-                          LANE_QUADS_LOW(b3, b7),  LANE_QUADS_HIGH(b0, b4), LANE_QUADS_HIGH(b1, b5),
-                          LANE_QUADS_HIGH(b2, b6), LANE_QUADS_HIGH(b3, b7)};
-}
-/* Four numbers of the state of each lane: two lanes' records in one vector, then transposed. */
-typedef struct {
-    lane_state c0, c1, c2, c3;
-} state_columns;
-LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int at)
-{
-    const lane_state r04 = state_load_pair(p, (brc_size)LANE_ITEM(at, 0), (brc_size)LANE_ITEM(at, 4));
-    const lane_state r15 = state_load_pair(p, (brc_size)LANE_ITEM(at, 1), (brc_size)LANE_ITEM(at, 5));
-    const lane_state r26 = state_load_pair(p, (brc_size)LANE_ITEM(at, 2), (brc_size)LANE_ITEM(at, 6));
-    const lane_state r37 = state_load_pair(p, (brc_size)LANE_ITEM(at, 3), (brc_size)LANE_ITEM(at, 7));
-    const lane_state a0 = LANE_ZIP_LOW(r04, r15), a1 = LANE_ZIP_HIGH(r04, r15);
-    const lane_state a2 = LANE_ZIP_LOW(r26, r37), a3 = LANE_ZIP_HIGH(r26, r37);
-    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2),
-                           LANE_PAIRS_HIGH(a1, a3)};
-}
-LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
-{
-    const state_columns c = state_gather_columns(p, row * 3);
-    return (state_vec3){c.c0, c.c1, c.c2};
-}
-LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
-{
-    const lane_int at = row * 9;
-    const lane_columns c = lane_gather_columns(p, at);
-    return (lane_mat3){c.c0, c.c1, c.c2, c.c3, c.c4, c.c5, c.c6, c.c7, gather_component(p + 8, at)};
-}
-LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
-{
-    const lane_columns c = lane_gather_columns(p, row * 6);
-    return (lane_sym3){c.c0, c.c1, c.c2, c.c3, c.c4, c.c5};
-}
-LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
-{
-    const state_columns c = state_gather_columns(p, row * 4);
-    return (lane_quat){LANE_FROM_STATE(c.c0), LANE_FROM_STATE(c.c1), LANE_FROM_STATE(c.c2), LANE_FROM_STATE(c.c3)};
-}
-#else
-LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
-{
-    const lane_int at = row * 3;
-    return (state_vec3){gather_state_component(p, at), gather_state_component(p + 1, at),
-                        gather_state_component(p + 2, at)};
-}
-LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
-{
-    const lane_int at = row * 9;
-    return (lane_mat3){gather_component(p, at),     gather_component(p + 1, at), gather_component(p + 2, at),
-                       gather_component(p + 3, at), gather_component(p + 4, at), gather_component(p + 5, at),
-                       gather_component(p + 6, at), gather_component(p + 7, at), gather_component(p + 8, at)};
-}
-LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
-{
-    const lane_int at = row * 6;
-    return (lane_sym3){gather_component(p, at),     gather_component(p + 1, at), gather_component(p + 2, at),
-                       gather_component(p + 3, at), gather_component(p + 4, at), gather_component(p + 5, at)};
-}
-LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
-{
-    const lane_int at = row * 4;
-    return (lane_quat){
-        LANE_FROM_STATE(gather_state_component(p, at)), LANE_FROM_STATE(gather_state_component(p + 1, at)),
-        LANE_FROM_STATE(gather_state_component(p + 2, at)), LANE_FROM_STATE(gather_state_component(p + 3, at))};
-}
-#endif
-/* A record that was read before, not kept from then: the compiler may not know that it is the same. */
-#if SPLIT_LOOPS
-LAW lane_mat3 lane_gather9_again(GLOBAL const coeff *restrict p, lane_int row)
-{
-    GLOBAL const volatile coeff *const r = (GLOBAL const volatile coeff *)(p + (brc_size)row * 9);
-    return (lane_mat3){r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]};
-}
-#else
-#define lane_gather9_again(p, row) lane_gather9(p, row)
-#endif
 /* b - a, taken in state and handed on as coeff. */
 LAW lane_vec3 state_vec3_difference(state_vec3 b, state_vec3 a)
 {
     return (lane_vec3){LANE_FROM_STATE(b.x - a.x), LANE_FROM_STATE(b.y - a.y), LANE_FROM_STATE(b.z - a.z)};
 }
-/* Stores of the W own elements from first into [element][n]. */
-LAW void lane_store9(GLOBAL coeff *restrict p, int first, lane_mat3 a)
-{
-    GLOBAL coeff *q = p + (brc_size)first * 9;
-#define PUT(l)                                                                                                         \
-    q[0x##l * 9] = LANE_ITEM(a.xx, l), q[0x##l * 9 + 1] = LANE_ITEM(a.xy, l), q[0x##l * 9 + 2] = LANE_ITEM(a.xz, l),   \
-              q[0x##l * 9 + 3] = LANE_ITEM(a.yx, l), q[0x##l * 9 + 4] = LANE_ITEM(a.yy, l),                            \
-              q[0x##l * 9 + 5] = LANE_ITEM(a.yz, l), q[0x##l * 9 + 6] = LANE_ITEM(a.zx, l),                            \
-              q[0x##l * 9 + 7] = LANE_ITEM(a.zy, l), q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
-    LANE_EACH(PUT)
-#undef PUT
-}
-LAW void lane_store6(GLOBAL coeff *restrict p, int first, lane_sym3 a)
-{
-    GLOBAL coeff *q = p + (brc_size)first * 6;
-#define PUT(l)                                                                                                         \
-    q[0x##l * 6] = LANE_ITEM(a.xx, l), q[0x##l * 6 + 1] = LANE_ITEM(a.yy, l), q[0x##l * 6 + 2] = LANE_ITEM(a.zz, l),   \
-              q[0x##l * 6 + 3] = LANE_ITEM(a.yz, l), q[0x##l * 6 + 4] = LANE_ITEM(a.xz, l),                            \
-              q[0x##l * 6 + 5] = LANE_ITEM(a.xy, l);
-    LANE_EACH(PUT)
-#undef PUT
-}
-LAW void state_store3(GLOBAL state *restrict p, int first, lane_vec3 a)
-{
-    GLOBAL state *q = p + (brc_size)first * 3;
-#define PUT(l)                                                                                                         \
-    q[0x##l * 3] = (state)LANE_ITEM(a.x, l), q[0x##l * 3 + 1] = (state)LANE_ITEM(a.y, l),                              \
-              q[0x##l * 3 + 2] = (state)LANE_ITEM(a.z, l);
-    LANE_EACH(PUT)
-#undef PUT
-}
-LAW void state_store1(GLOBAL state *restrict p, int first, lane a)
-{
-#define PUT(l) p[(brc_size)first + 0x##l] = (state)LANE_ITEM(a, l);
-    LANE_EACH(PUT)
-#undef PUT
-}
-
 /* Blocked storage [block][n][C] and rows [slot][n][C]: lane is the first lane within the slice. */
 LAW lane lane_block(GLOBAL const coeff *restrict p, int block, int n, int component, int first_lane)
 {

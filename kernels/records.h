@@ -1,0 +1,239 @@
+/* Records [element][n]: gathered from the elements of all lanes, stored to W own elements side by side. A record is read
+ * whole, in vectors, and the records of the lanes are transposed where the instruction set has shuffles for it; numbers
+ * one by one otherwise. Where an element's record begins is taken from the row number as a scalar: a vector of places
+ * would have to be taken apart again (measured: bench/results/notes/performance.md). */
+#ifndef BRC_KERNELS_RECORDS_H
+#define BRC_KERNELS_RECORDS_H
+
+#include "vec.h"
+
+/* Numbers from anywhere. */
+LAW lane gather_component(GLOBAL const coeff *restrict p, lane_int at)
+{
+#ifdef LANE_GATHER
+    return LANE_GATHER(p, at);
+#else
+#define ITEM(l) p[LANE_ITEM(at, l)]
+    return LANE_MAKE(lane, ITEM);
+#undef ITEM
+#endif
+}
+/* Number c of the record of n of each lane. */
+LAW lane gather_number(GLOBAL const coeff *restrict p, lane_int row, brc_size n, brc_size c)
+{
+#define ITEM(l) p[(brc_size)LANE_ITEM(row, l) * n + c]
+    return LANE_MAKE(lane, ITEM);
+#undef ITEM
+}
+LAW lane_state gather_state_number(GLOBAL const state *restrict p, lane_int row, brc_size n, brc_size c)
+{
+#define ITEM(l) p[(brc_size)LANE_ITEM(row, l) * n + c]
+    return LANE_MAKE(lane_state, ITEM);
+#undef ITEM
+}
+
+#if defined(LANE_SHUFFLE) && W == 8
+#ifdef __OPENCL_VERSION__
+typedef BRC_JOIN(STATE_NAME, 4) state_quad;
+LAW state_quad state_quad_load(GLOBAL const state *restrict p, brc_size at) { return vload4(0, p + at); }
+#else
+typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
+typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
+LAW state_quad state_quad_load(const state *restrict p, brc_size at) { return *(const quad_anywhere *)(p + at); }
+#endif
+/* p[a .. a + 3], p[b .. b + 3] */
+LAW lane_state state_load_pair(GLOBAL const state *restrict p, brc_size a, brc_size b)
+{
+    const state_quad low = state_quad_load(p, a), high = state_quad_load(p, b);
+    return LANE_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+/* Stages of the 8 x 8 transposition: numbers, pairs, quads of two vectors. */
+#define LANE_ZIP_LOW(a, b) LANE_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14)
+#define LANE_ZIP_HIGH(a, b) LANE_SHUFFLE(a, b, 1, 9, 3, 11, 5, 13, 7, 15)
+#define LANE_PAIRS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
+#define LANE_PAIRS_HIGH(a, b) LANE_SHUFFLE(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
+#define LANE_QUADS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
+#define LANE_QUADS_HIGH(a, b) LANE_SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
+typedef struct {
+    lane c0, c1, c2, c3, c4, c5, c6, c7;
+} lane_columns;
+LAW lane_columns lane_transpose(lane_columns r)
+{
+    const lane a0 = LANE_ZIP_LOW(r.c0, r.c1), a1 = LANE_ZIP_HIGH(r.c0, r.c1), a2 = LANE_ZIP_LOW(r.c2, r.c3),
+               a3 = LANE_ZIP_HIGH(r.c2, r.c3);
+    const lane a4 = LANE_ZIP_LOW(r.c4, r.c5), a5 = LANE_ZIP_HIGH(r.c4, r.c5), a6 = LANE_ZIP_LOW(r.c6, r.c7),
+               a7 = LANE_ZIP_HIGH(r.c6, r.c7);
+    const lane b0 = LANE_PAIRS_LOW(a0, a2), b1 = LANE_PAIRS_LOW(a1, a3), b2 = LANE_PAIRS_HIGH(a0, a2),
+               b3 = LANE_PAIRS_HIGH(a1, a3);
+    const lane b4 = LANE_PAIRS_LOW(a4, a6), b5 = LANE_PAIRS_LOW(a5, a7), b6 = LANE_PAIRS_HIGH(a4, a6),
+               b7 = LANE_PAIRS_HIGH(a5, a7);
+    return (lane_columns){LANE_QUADS_LOW(b0, b4),  LANE_QUADS_LOW(b1, b5),  LANE_QUADS_LOW(b2, b6),
+                          LANE_QUADS_LOW(b3, b7),  LANE_QUADS_HIGH(b0, b4), LANE_QUADS_HIGH(b1, b5),
+                          LANE_QUADS_HIGH(b2, b6), LANE_QUADS_HIGH(b3, b7)};
+}
+/* The first eight numbers of each lane's record of n; of a shorter record the next one's too: arrays end with spare room
+ * (LANE_SPARE). */
+LAW lane_columns lane_gather_columns(GLOBAL const coeff *restrict p, lane_int row, brc_size n)
+{
+#define RECORD(l) lane_load(p, (brc_size)LANE_ITEM(row, l) * n)
+    return lane_transpose((lane_columns){RECORD(0), RECORD(1), RECORD(2), RECORD(3), RECORD(4), RECORD(5), RECORD(6),
+                                         RECORD(7)});
+#undef RECORD
+}
+/* Four numbers of the state of each lane: two lanes' records in one vector, then transposed. */
+typedef struct {
+    lane_state c0, c1, c2, c3;
+} state_columns;
+LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int row, brc_size n)
+{
+#define PAIR(k, l) state_load_pair(p, (brc_size)LANE_ITEM(row, k) * n, (brc_size)LANE_ITEM(row, l) * n)
+    const lane_state r04 = PAIR(0, 4), r15 = PAIR(1, 5), r26 = PAIR(2, 6), r37 = PAIR(3, 7);
+#undef PAIR
+    const lane_state a0 = LANE_ZIP_LOW(r04, r15), a1 = LANE_ZIP_HIGH(r04, r15);
+    const lane_state a2 = LANE_ZIP_LOW(r26, r37), a3 = LANE_ZIP_HIGH(r26, r37);
+    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2),
+                           LANE_PAIRS_HIGH(a1, a3)};
+}
+#elif defined(LANE_SHUFFLE) && W == 4
+/* Two numbers of the records of four lanes: lanes 0 and 2, 1 and 3 in one vector, then zipped. */
+typedef coeff coeff_pair __attribute__((vector_size(2 * sizeof(coeff))));
+typedef coeff_pair pair_anywhere __attribute__((aligned(4), may_alias));
+typedef struct {
+    lane c0, c1;
+} lane_two;
+LAW lane_two lane_gather_two(const coeff *restrict p, lane_int row, brc_size n, brc_size c)
+{
+#define PAIR(l) (*(const pair_anywhere *)(p + (brc_size)LANE_ITEM(row, l) * n + c))
+    const lane r02 = LANE_SHUFFLE(PAIR(0), PAIR(2), 0, 1, 2, 3), r13 = LANE_SHUFFLE(PAIR(1), PAIR(3), 0, 1, 2, 3);
+#undef PAIR
+    return (lane_two){LANE_SHUFFLE(r02, r13, 0, 4, 2, 6), LANE_SHUFFLE(r02, r13, 1, 5, 3, 7)};
+}
+LAW void lane_store_two(coeff *restrict q, brc_size n, lane a, lane b)
+{
+    const lane r02 = LANE_SHUFFLE(a, b, 0, 4, 2, 6), r13 = LANE_SHUFFLE(a, b, 1, 5, 3, 7);
+    *(pair_anywhere *)q = LANE_SHUFFLE(r02, r02, 0, 1);
+    *(pair_anywhere *)(q + n) = LANE_SHUFFLE(r13, r13, 0, 1);
+    *(pair_anywhere *)(q + 2 * n) = LANE_SHUFFLE(r02, r02, 2, 3);
+    *(pair_anywhere *)(q + 3 * n) = LANE_SHUFFLE(r13, r13, 2, 3);
+}
+#endif
+
+LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
+{
+#if defined(LANE_SHUFFLE) && W == 8
+    const state_columns c = state_gather_columns(p, row, 3);
+    return (state_vec3){c.c0, c.c1, c.c2};
+#elif defined(LANE_SHUFFLE) && W == 4
+    const lane_two xy = lane_gather_two(p, row, 3, 0);
+    return (state_vec3){xy.c0, xy.c1, gather_state_number(p, row, 3, 2)};
+#else
+    return (state_vec3){gather_state_number(p, row, 3, 0), gather_state_number(p, row, 3, 1),
+                        gather_state_number(p, row, 3, 2)};
+#endif
+}
+LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
+{
+    const lane last = gather_number(p, row, 9, 8);
+#if defined(LANE_SHUFFLE) && W == 8
+    const lane_columns c = lane_gather_columns(p, row, 9);
+    return (lane_mat3){c.c0, c.c1, c.c2, c.c3, c.c4, c.c5, c.c6, c.c7, last};
+#elif defined(LANE_SHUFFLE) && W == 4
+    const lane_two a = lane_gather_two(p, row, 9, 0), b = lane_gather_two(p, row, 9, 2),
+                   c = lane_gather_two(p, row, 9, 4), d = lane_gather_two(p, row, 9, 6);
+    return (lane_mat3){a.c0, a.c1, b.c0, b.c1, c.c0, c.c1, d.c0, d.c1, last};
+#else
+    return (lane_mat3){gather_number(p, row, 9, 0), gather_number(p, row, 9, 1), gather_number(p, row, 9, 2),
+                       gather_number(p, row, 9, 3), gather_number(p, row, 9, 4), gather_number(p, row, 9, 5),
+                       gather_number(p, row, 9, 6), gather_number(p, row, 9, 7), last};
+#endif
+}
+LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
+{
+#if defined(LANE_SHUFFLE) && W == 8
+    const lane_columns c = lane_gather_columns(p, row, 6);
+    return (lane_sym3){c.c0, c.c1, c.c2, c.c3, c.c4, c.c5};
+#elif defined(LANE_SHUFFLE) && W == 4
+    const lane_two a = lane_gather_two(p, row, 6, 0), b = lane_gather_two(p, row, 6, 2),
+                   c = lane_gather_two(p, row, 6, 4);
+    return (lane_sym3){a.c0, a.c1, b.c0, b.c1, c.c0, c.c1};
+#else
+    return (lane_sym3){gather_number(p, row, 6, 0), gather_number(p, row, 6, 1), gather_number(p, row, 6, 2),
+                       gather_number(p, row, 6, 3), gather_number(p, row, 6, 4), gather_number(p, row, 6, 5)};
+#endif
+}
+LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
+{
+#if defined(LANE_SHUFFLE) && W == 8
+    const state_columns c = state_gather_columns(p, row, 4);
+    return (lane_quat){LANE_FROM_STATE(c.c0), LANE_FROM_STATE(c.c1), LANE_FROM_STATE(c.c2), LANE_FROM_STATE(c.c3)};
+#elif defined(LANE_SHUFFLE) && W == 4
+    const lane_two a = lane_gather_two(p, row, 4, 0), b = lane_gather_two(p, row, 4, 2);
+    return (lane_quat){a.c0, a.c1, b.c0, b.c1};
+#else
+    return (lane_quat){
+        LANE_FROM_STATE(gather_state_number(p, row, 4, 0)), LANE_FROM_STATE(gather_state_number(p, row, 4, 1)),
+        LANE_FROM_STATE(gather_state_number(p, row, 4, 2)), LANE_FROM_STATE(gather_state_number(p, row, 4, 3))};
+#endif
+}
+/* A record that was read before, not kept from then: the compiler may not know that it is the same. */
+#if SPLIT_LOOPS
+LAW lane_mat3 lane_gather9_again(GLOBAL const coeff *restrict p, lane_int row)
+{
+    GLOBAL const volatile coeff *const r = (GLOBAL const volatile coeff *)(p + (brc_size)row * 9);
+    return (lane_mat3){r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]};
+}
+#else
+#define lane_gather9_again(p, row) lane_gather9(p, row)
+#endif
+
+/* Stores of the W own elements from first. */
+LAW void lane_store9(GLOBAL coeff *restrict p, int first, lane_mat3 a)
+{
+    GLOBAL coeff *q = p + (brc_size)first * 9;
+#if defined(LANE_SHUFFLE) && W == 8
+    const lane_columns r = lane_transpose((lane_columns){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy});
+    lane_store(q, 0, r.c0), lane_store(q, 9, r.c1), lane_store(q, 18, r.c2), lane_store(q, 27, r.c3);
+    lane_store(q, 36, r.c4), lane_store(q, 45, r.c5), lane_store(q, 54, r.c6), lane_store(q, 63, r.c7);
+#define PUT(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
+#elif defined(LANE_SHUFFLE) && W == 4
+    lane_store_two(q, 9, a.xx, a.xy), lane_store_two(q + 2, 9, a.xz, a.yx);
+    lane_store_two(q + 4, 9, a.yy, a.yz), lane_store_two(q + 6, 9, a.zx, a.zy);
+#define PUT(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
+#else
+#define PUT(l)                                                                                                         \
+    q[0x##l * 9] = LANE_ITEM(a.xx, l), q[0x##l * 9 + 1] = LANE_ITEM(a.xy, l), q[0x##l * 9 + 2] = LANE_ITEM(a.xz, l),   \
+              q[0x##l * 9 + 3] = LANE_ITEM(a.yx, l), q[0x##l * 9 + 4] = LANE_ITEM(a.yy, l),                            \
+              q[0x##l * 9 + 5] = LANE_ITEM(a.yz, l), q[0x##l * 9 + 6] = LANE_ITEM(a.zx, l),                            \
+              q[0x##l * 9 + 7] = LANE_ITEM(a.zy, l), q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
+#endif
+    LANE_EACH(PUT)
+#undef PUT
+}
+LAW void lane_store6(GLOBAL coeff *restrict p, int first, lane_sym3 a)
+{
+    GLOBAL coeff *q = p + (brc_size)first * 6;
+#define PUT(l)                                                                                                         \
+    q[0x##l * 6] = LANE_ITEM(a.xx, l), q[0x##l * 6 + 1] = LANE_ITEM(a.yy, l), q[0x##l * 6 + 2] = LANE_ITEM(a.zz, l),   \
+              q[0x##l * 6 + 3] = LANE_ITEM(a.yz, l), q[0x##l * 6 + 4] = LANE_ITEM(a.xz, l),                            \
+              q[0x##l * 6 + 5] = LANE_ITEM(a.xy, l);
+    LANE_EACH(PUT)
+#undef PUT
+}
+LAW void state_store3(GLOBAL state *restrict p, int first, lane_vec3 a)
+{
+    GLOBAL state *q = p + (brc_size)first * 3;
+#define PUT(l)                                                                                                         \
+    q[0x##l * 3] = (state)LANE_ITEM(a.x, l), q[0x##l * 3 + 1] = (state)LANE_ITEM(a.y, l),                              \
+              q[0x##l * 3 + 2] = (state)LANE_ITEM(a.z, l);
+    LANE_EACH(PUT)
+#undef PUT
+}
+LAW void state_store1(GLOBAL state *restrict p, int first, lane a)
+{
+#define PUT(l) p[(brc_size)first + 0x##l] = (state)LANE_ITEM(a, l);
+    LANE_EACH(PUT)
+#undef PUT
+}
+
+
+#endif
