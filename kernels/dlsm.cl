@@ -105,7 +105,7 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums 
                                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
                                           GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict modulus,
                                           GLOBAL const coeff *restrict ell_of, state_vec3 u, lane_mat3 h, lane_mat3 m,
-                                          lane k, coeff ell_one, int finite)
+                                          lane k, coeff ell_one, int finite, int plain)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
@@ -124,7 +124,9 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums 
     const lane_vec3 mr = lane_vec3_scale(weight, lane_vec3_add(m_x, m_j_x));
 #else
     const lane_vec3 r = lane_vec3_sub(h_x, h_j_x);
-    const lane_vec3 mr = lane_vec3_add(m_x, dlsm_compaction_along(h_j, h_j_x, x, LANE_ZERO + ell_one, finite));
+    const lane_vec3 m_j_x = plain ? dlsm_compaction_along_plain(h_j, h_j_x, x, finite)
+                                  : dlsm_compaction_along(h_j, h_j_x, x, LANE_ZERO + ell_one, finite);
+    const lane_vec3 mr = lane_vec3_add(m_x, m_j_x);
 #endif
     return dlsm_flux_add_bond(sums, r, mr, s);
 }
@@ -147,20 +149,22 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict nei
                                      GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
                                      GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
                                      GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
-                                     lane_mat3 h, lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite)
+                                     lane_mat3 h, lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite,
+                                     int plain)
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
     for (int slot = who.begin; slot < who.end; ++slot) {
         sums = dlsm_flux_gradients_at(who, slot, sums, neighbour, area, ratio, displacement, gradient, modulus, ell_of,
-                                      u, h, m, k, ell_one, finite);
+                                      u, h, m, k, ell_one, finite, plain);
         if (!SPLIT_LOOPS) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
     }
     return sums;
 }
 
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
- * held_moment [block][9][C]: what held faces and tractions add to Q. Where loops are split, nothing of the first is
+ * held_moment [block][9][C]: what held faces and tractions add to Q. The loop has an instance
+ * without the terms of ell, which is 0 from nu = 0 on (one material). Where loops are split, nothing of the first is
  * held in the second but what its sums have become. */
 LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                            GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
@@ -177,17 +181,19 @@ LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GL
               m;
     dlsm_flux_sums sums;
     dlsm_flux_couples couples;
-    if (finite) {
-        m = dlsm_compaction(h, ell, 1);
-        sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of,
-                                 h, p, m, k, ell_one, 1);
-        couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, 1);
+#define SUMS(finite, plain)                                                                                            \
+    m = dlsm_compaction(h, ell, finite);                                                                               \
+    sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of, h,  \
+                             p, m, k, ell_one, finite, plain);                                                         \
+    couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, finite);
+    if (finite && ell_one == 0 && !BRC_MANY_MATERIALS) {
+        SUMS(1, 1)
+    } else if (finite) {
+        SUMS(1, 0)
     } else {
-        m = dlsm_compaction(h, ell, 0);
-        sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of,
-                                 h, p, m, k, ell_one, 0);
-        couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, 0);
+        SUMS(0, 0)
     }
+#undef SUMS
     if (SPLIT_LOOPS) {
         p = lane_gather9(stress, who.own);
         for (int slot = who.begin; slot < who.end; ++slot)

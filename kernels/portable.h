@@ -203,12 +203,8 @@ LAW int brc_lane_any_short(lane a, lane b)
 /* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at
  * every page of 4 KiB (measured in docs/notebook/performance.md). GPUs hide the wait by their many work-items. */
 #if !defined(__OPENCL_VERSION__) && W > 1
-#ifndef TRY_ROWS
-#define TRY_ROWS 12
-#define TRY_GATHERS 2
-#endif
-#define ROWS_AHEAD TRY_ROWS
-#define GATHERS_AHEAD TRY_GATHERS
+#define ROWS_AHEAD 12
+#define GATHERS_AHEAD 2
 #define PREFETCH(p, at) __builtin_prefetch((p) + (at), 0, 3)
 #else
 #define PREFETCH(p, at) ((void)0)
@@ -245,8 +241,8 @@ LAW int brc_lane_any_short(lane a, lane b)
 
 /* Records of neighbours are read whole and transposed (records.h): with eight lanes and AVX-512, and with four numbers
  * in double, AVX2's width. With eight doubles on AVX2 each shuffle would become several (measured: a third slower), so
- * there and elsewhere numbers are gathered one by one. A vector reaches up to LANE_SPARE numbers beyond the last record,
- * which the host allocates. */
+ * there and elsewhere numbers are gathered one by one. A vector reaches up to LANE_SPARE numbers beyond the last
+ * record, which the host allocates. */
 #if ((W == 8 && defined(__AVX512F__)) ||                                                                               \
      (W == 4 && BRC_PRECISION == 0 && defined(__AVX2__) && !defined(__OPENCL_VERSION__))) &&                           \
     (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))

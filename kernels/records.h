@@ -1,7 +1,7 @@
-/* Records [element][n]: gathered from the elements of all lanes, stored to W own elements side by side. A record is read
- * whole, in vectors, and the records of the lanes are transposed where the instruction set has shuffles for it; numbers
- * one by one otherwise. Where an element's record begins is taken from the row number as a scalar: a vector of places
- * would have to be taken apart again (measured: bench/results/notes/performance.md). */
+/* Records [element][n]: gathered from the elements of all lanes, stored to W own elements side by side. A record is
+ * read whole, in vectors, and the records of the lanes are transposed where the instruction set has shuffles for it;
+ * numbers one by one otherwise. Where an element's record begins is taken from the row number as a scalar: a vector of
+ * places would have to be taken apart again (measured: bench/results/notes/performance.md). */
 #ifndef BRC_KERNELS_RECORDS_H
 #define BRC_KERNELS_RECORDS_H
 
@@ -71,13 +71,13 @@ LAW lane_columns lane_transpose(lane_columns r)
                           LANE_QUADS_LOW(b3, b7),  LANE_QUADS_HIGH(b0, b4), LANE_QUADS_HIGH(b1, b5),
                           LANE_QUADS_HIGH(b2, b6), LANE_QUADS_HIGH(b3, b7)};
 }
-/* The first eight numbers of each lane's record of n; of a shorter record the next one's too: arrays end with spare room
- * (LANE_SPARE). */
+/* The first eight numbers of each lane's record of n; of a shorter record the next one's too: arrays end with spare
+ * room (LANE_SPARE). */
 LAW lane_columns lane_gather_columns(GLOBAL const coeff *restrict p, lane_int row, brc_size n)
 {
 #define RECORD(l) lane_load(p, (brc_size)LANE_ITEM(row, l) * n)
-    return lane_transpose((lane_columns){RECORD(0), RECORD(1), RECORD(2), RECORD(3), RECORD(4), RECORD(5), RECORD(6),
-                                         RECORD(7)});
+    return lane_transpose(
+        (lane_columns){RECORD(0), RECORD(1), RECORD(2), RECORD(3), RECORD(4), RECORD(5), RECORD(6), RECORD(7)});
 #undef RECORD
 }
 /* Four numbers of the state of each lane: two lanes' records in one vector, then transposed. */
@@ -234,6 +234,5 @@ LAW void state_store1(GLOBAL state *restrict p, int first, lane a)
     LANE_EACH(PUT)
 #undef PUT
 }
-
 
 #endif
