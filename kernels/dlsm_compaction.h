@@ -20,7 +20,7 @@ LAW lane_mat3 dlsm_compaction(lane_mat3 gradient, lane ell, int finite)
 }
 
 /* E x [unit of x], from H x. */
-LAW lane_vec3 dlsm_compaction_half(lane_mat3 gradient, lane_vec3 along, lane_vec3 x, int finite)
+LAW lane_vec3 dlsm_strain_along(lane_mat3 gradient, lane_vec3 along, lane_vec3 x, int finite)
 {
     const lane_vec3 t = finite ? lane_vec3_add(x, along) : x;
     const lane_vec3 back = lane_mat3_mul_vec(lane_mat3_transpose(gradient), t);
@@ -31,20 +31,20 @@ LAW lane_vec3 dlsm_compaction_half(lane_mat3 gradient, lane_vec3 along, lane_vec
  * M x = y + H y, y = S_c x. Half the work of dlsm_compaction for a gradient used once. */
 LAW lane_vec3 dlsm_compaction_along(lane_mat3 gradient, lane_vec3 along, lane_vec3 x, lane ell, int finite)
 {
-    const lane_vec3 half = dlsm_compaction_half(gradient, along, x, finite);
+    const lane_vec3 e_x = dlsm_strain_along(gradient, along, x, finite);
     lane trace = gradient.xx + gradient.yy + gradient.zz;
     if (finite)
         trace += REAL(0.5) * (gradient.xx * gradient.xx + gradient.xy * gradient.xy + gradient.xz * gradient.xz +
                               gradient.yx * gradient.yx + gradient.yy * gradient.yy + gradient.yz * gradient.yz +
                               gradient.zx * gradient.zx + gradient.zy * gradient.zy + gradient.zz * gradient.zz);
     const lane shift = ell * trace;
-    const lane_vec3 y = {half.x + shift * x.x, half.y + shift * x.y, half.z + shift * x.z};
+    const lane_vec3 y = {e_x.x + shift * x.x, e_x.y + shift * x.y, e_x.z + shift * x.z};
     return finite ? lane_vec3_add(y, lane_mat3_mul_vec(gradient, y)) : y;
 }
 /* The same where ell is 0, as of every nu >= 0. */
 LAW lane_vec3 dlsm_compaction_along_plain(lane_mat3 gradient, lane_vec3 along, lane_vec3 x, int finite)
 {
-    const lane_vec3 y = dlsm_compaction_half(gradient, along, x, finite);
+    const lane_vec3 y = dlsm_strain_along(gradient, along, x, finite);
     return finite ? lane_vec3_add(y, lane_mat3_mul_vec(gradient, y)) : y;
 }
 
