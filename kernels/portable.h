@@ -239,14 +239,28 @@ LAW int brc_lane_any_short(lane a, lane b)
 #error "BRC_LANES must be 1, 4, 8 or 16"
 #endif
 
-/* Records of neighbours are read whole and transposed (records.h): with eight lanes and AVX-512, and with four numbers
- * in double, AVX2's width. With eight doubles on AVX2 each shuffle would become several (measured: a third slower), so
- * there and elsewhere numbers are gathered one by one. A vector reaches up to LANE_SPARE numbers beyond the last
- * record, which the host allocates. */
-#if ((W == 8 && defined(__AVX512F__)) ||                                                                               \
-     (W == 4 && BRC_PRECISION == 0 && defined(__AVX2__) && !defined(__OPENCL_VERSION__))) &&                           \
-    (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
+/* Records of neighbours are read whole and transposed (records.h): with eight lanes and AVX-512, with eight floats or
+ * four doubles and AVX2, whose shuffles do as many. With eight doubles on AVX2 each shuffle would become several
+ * (measured: a third slower), so there and elsewhere numbers are gathered one by one. A vector reaches up to LANE_SPARE
+ * numbers beyond the last record, which the host allocates. */
+#if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
 #define LANE_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#if W == 8 && (defined(__AVX512F__) || (defined(__AVX2__) && BRC_PRECISION > 0 && !defined(__OPENCL_VERSION__)))
+#define LANE_SHUFFLES 8
+#elif W == 4 && BRC_PRECISION == 0 && defined(__AVX2__) && !defined(__OPENCL_VERSION__)
+#define LANE_SHUFFLES 4
+#endif
+#if W == 8 && (defined(__AVX512F__) || (defined(__AVX2__) && BRC_PRECISION == 2 && !defined(__OPENCL_VERSION__)))
+#define STATE_SHUFFLES 8
+#elif defined(LANE_SHUFFLES) && LANE_SHUFFLES == 4
+#define STATE_SHUFFLES 4
+#endif
+#endif
+#ifndef LANE_SHUFFLES
+#define LANE_SHUFFLES 0
+#endif
+#ifndef STATE_SHUFFLES
+#define STATE_SHUFFLES 0
 #endif
 #define LANE_SPARE 8
 /* Numbers from anywhere: one instruction in place of a load, a shuffle and the arithmetic of a place for each lane. */

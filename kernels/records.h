@@ -32,21 +32,7 @@ LAW lane_state gather_state_number(GLOBAL const state *restrict p, lane_int row,
 #undef ITEM
 }
 
-#if defined(LANE_SHUFFLE) && W == 8
-#ifdef __OPENCL_VERSION__
-typedef BRC_JOIN(STATE_NAME, 4) state_quad;
-LAW state_quad state_quad_load(GLOBAL const state *restrict p, brc_size at) { return vload4(0, p + at); }
-#else
-typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
-typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
-LAW state_quad state_quad_load(const state *restrict p, brc_size at) { return *(const quad_anywhere *)(p + at); }
-#endif
-/* p[a .. a + 3], p[b .. b + 3] */
-LAW lane_state state_load_pair(GLOBAL const state *restrict p, brc_size a, brc_size b)
-{
-    const state_quad low = state_quad_load(p, a), high = state_quad_load(p, b);
-    return LANE_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-}
+#if LANE_SHUFFLES == 8 || STATE_SHUFFLES == 8
 /* Stages of the 8 x 8 transposition: numbers, pairs, quads of two vectors. */
 #define LANE_ZIP_LOW(a, b) LANE_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14)
 #define LANE_ZIP_HIGH(a, b) LANE_SHUFFLE(a, b, 1, 9, 3, 11, 5, 13, 7, 15)
@@ -54,6 +40,8 @@ LAW lane_state state_load_pair(GLOBAL const state *restrict p, brc_size a, brc_s
 #define LANE_PAIRS_HIGH(a, b) LANE_SHUFFLE(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
 #define LANE_QUADS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
 #define LANE_QUADS_HIGH(a, b) LANE_SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
+#endif
+#if LANE_SHUFFLES == 8
 typedef struct {
     lane c0, c1, c2, c3, c4, c5, c6, c7;
 } lane_columns;
@@ -80,21 +68,7 @@ LAW lane_columns lane_gather_columns(GLOBAL const coeff *restrict p, lane_int ro
         (lane_columns){RECORD(0), RECORD(1), RECORD(2), RECORD(3), RECORD(4), RECORD(5), RECORD(6), RECORD(7)});
 #undef RECORD
 }
-/* Four numbers of the state of each lane: two lanes' records in one vector, then transposed. */
-typedef struct {
-    lane_state c0, c1, c2, c3;
-} state_columns;
-LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int row, brc_size n)
-{
-#define PAIR(k, l) state_load_pair(p, (brc_size)LANE_ITEM(row, k) * n, (brc_size)LANE_ITEM(row, l) * n)
-    const lane_state r04 = PAIR(0, 4), r15 = PAIR(1, 5), r26 = PAIR(2, 6), r37 = PAIR(3, 7);
-#undef PAIR
-    const lane_state a0 = LANE_ZIP_LOW(r04, r15), a1 = LANE_ZIP_HIGH(r04, r15);
-    const lane_state a2 = LANE_ZIP_LOW(r26, r37), a3 = LANE_ZIP_HIGH(r26, r37);
-    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2),
-                           LANE_PAIRS_HIGH(a1, a3)};
-}
-#elif defined(LANE_SHUFFLE) && W == 4
+#elif LANE_SHUFFLES == 4
 /* Two numbers of the records of four lanes: lanes 0 and 2, 1 and 3 in one vector, then zipped. */
 typedef coeff coeff_pair __attribute__((vector_size(2 * sizeof(coeff))));
 typedef coeff_pair pair_anywhere __attribute__((aligned(4), may_alias));
@@ -118,12 +92,43 @@ LAW void lane_store_two(coeff *restrict q, brc_size n, lane a, lane b)
 }
 #endif
 
+#if STATE_SHUFFLES == 8
+#ifdef __OPENCL_VERSION__
+typedef BRC_JOIN(STATE_NAME, 4) state_quad;
+LAW state_quad state_quad_load(GLOBAL const state *restrict p, brc_size at) { return vload4(0, p + at); }
+#else
+typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
+typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
+LAW state_quad state_quad_load(const state *restrict p, brc_size at) { return *(const quad_anywhere *)(p + at); }
+#endif
+/* p[a .. a + 3], p[b .. b + 3] */
+LAW lane_state state_load_pair(GLOBAL const state *restrict p, brc_size a, brc_size b)
+{
+    const state_quad low = state_quad_load(p, a), high = state_quad_load(p, b);
+    return LANE_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+/* Four numbers of the state of each lane: two lanes' records in one vector, then transposed. */
+typedef struct {
+    lane_state c0, c1, c2, c3;
+} state_columns;
+LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int row, brc_size n)
+{
+#define PAIR(k, l) state_load_pair(p, (brc_size)LANE_ITEM(row, k) * n, (brc_size)LANE_ITEM(row, l) * n)
+    const lane_state r04 = PAIR(0, 4), r15 = PAIR(1, 5), r26 = PAIR(2, 6), r37 = PAIR(3, 7);
+#undef PAIR
+    const lane_state a0 = LANE_ZIP_LOW(r04, r15), a1 = LANE_ZIP_HIGH(r04, r15);
+    const lane_state a2 = LANE_ZIP_LOW(r26, r37), a3 = LANE_ZIP_HIGH(r26, r37);
+    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2),
+                           LANE_PAIRS_HIGH(a1, a3)};
+}
+#endif
+
 LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
 {
-#if defined(LANE_SHUFFLE) && W == 8
+#if STATE_SHUFFLES == 8
     const state_columns c = state_gather_columns(p, row, 3);
     return (state_vec3){c.c0, c.c1, c.c2};
-#elif defined(LANE_SHUFFLE) && W == 4
+#elif STATE_SHUFFLES == 4
     const lane_two xy = lane_gather_two(p, row, 3, 0);
     return (state_vec3){xy.c0, xy.c1, gather_state_number(p, row, 3, 2)};
 #else
@@ -134,10 +139,10 @@ LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
 LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
 {
     const lane last = gather_number(p, row, 9, 8);
-#if defined(LANE_SHUFFLE) && W == 8
+#if LANE_SHUFFLES == 8
     const lane_columns c = lane_gather_columns(p, row, 9);
     return (lane_mat3){c.c0, c.c1, c.c2, c.c3, c.c4, c.c5, c.c6, c.c7, last};
-#elif defined(LANE_SHUFFLE) && W == 4
+#elif LANE_SHUFFLES == 4
     const lane_two a = lane_gather_two(p, row, 9, 0), b = lane_gather_two(p, row, 9, 2),
                    c = lane_gather_two(p, row, 9, 4), d = lane_gather_two(p, row, 9, 6);
     return (lane_mat3){a.c0, a.c1, b.c0, b.c1, c.c0, c.c1, d.c0, d.c1, last};
@@ -149,10 +154,10 @@ LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
 }
 LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
 {
-#if defined(LANE_SHUFFLE) && W == 8
+#if LANE_SHUFFLES == 8
     const lane_columns c = lane_gather_columns(p, row, 6);
     return (lane_sym3){c.c0, c.c1, c.c2, c.c3, c.c4, c.c5};
-#elif defined(LANE_SHUFFLE) && W == 4
+#elif LANE_SHUFFLES == 4
     const lane_two a = lane_gather_two(p, row, 6, 0), b = lane_gather_two(p, row, 6, 2),
                    c = lane_gather_two(p, row, 6, 4);
     return (lane_sym3){a.c0, a.c1, b.c0, b.c1, c.c0, c.c1};
@@ -163,10 +168,10 @@ LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
 }
 LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
 {
-#if defined(LANE_SHUFFLE) && W == 8
+#if STATE_SHUFFLES == 8
     const state_columns c = state_gather_columns(p, row, 4);
     return (lane_quat){LANE_FROM_STATE(c.c0), LANE_FROM_STATE(c.c1), LANE_FROM_STATE(c.c2), LANE_FROM_STATE(c.c3)};
-#elif defined(LANE_SHUFFLE) && W == 4
+#elif STATE_SHUFFLES == 4
     const lane_two a = lane_gather_two(p, row, 4, 0), b = lane_gather_two(p, row, 4, 2);
     return (lane_quat){a.c0, a.c1, b.c0, b.c1};
 #else
@@ -190,12 +195,12 @@ LAW lane_mat3 lane_gather9_again(GLOBAL const coeff *restrict p, lane_int row)
 LAW void lane_store9(GLOBAL coeff *restrict p, int first, lane_mat3 a)
 {
     GLOBAL coeff *q = p + (brc_size)first * 9;
-#if defined(LANE_SHUFFLE) && W == 8
+#if LANE_SHUFFLES == 8
     const lane_columns r = lane_transpose((lane_columns){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy});
     lane_store(q, 0, r.c0), lane_store(q, 9, r.c1), lane_store(q, 18, r.c2), lane_store(q, 27, r.c3);
     lane_store(q, 36, r.c4), lane_store(q, 45, r.c5), lane_store(q, 54, r.c6), lane_store(q, 63, r.c7);
 #define PUT(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
-#elif defined(LANE_SHUFFLE) && W == 4
+#elif LANE_SHUFFLES == 4
     lane_store_two(q, 9, a.xx, a.xy), lane_store_two(q + 2, 9, a.xz, a.yx);
     lane_store_two(q + 4, 9, a.yy, a.yz), lane_store_two(q + 6, 9, a.zx, a.zy);
 #define PUT(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
