@@ -163,9 +163,8 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict nei
 }
 
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
- * held_moment [block][9][C]: what held faces and tractions add to Q. The loop has an instance
- * without the terms of ell, which is 0 from nu = 0 on (one material). Where loops are split, nothing of the first is
- * held in the second but what its sums have become. */
+ * held_moment [block][9][C]: what held faces and tractions add to Q. One loop leaves out the terms of ell, 0 for nu >=
+ * 0 (one material). Where loops are split, the second holds nothing of the first but what its sums have become. */
 LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
                            GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
@@ -182,17 +181,16 @@ LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GL
     dlsm_flux_sums sums;
     dlsm_flux_couples couples;
 #define SUMS(finite, plain)                                                                                            \
-    m = dlsm_compaction(h, ell, finite);                                                                               \
+    m = dlsm_compaction(h, ell, finite),                                                                               \
     sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of, h,  \
-                             p, m, k, ell_one, finite, plain);                                                         \
-    couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, finite);
-    if (finite && ell_one == 0 && !BRC_MANY_MATERIALS) {
-        SUMS(1, 1)
-    } else if (finite) {
-        SUMS(1, 0)
-    } else {
-        SUMS(0, 0)
-    }
+                             p, m, k, ell_one, finite, plain),                                                         \
+    couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, finite)
+    if (!finite)
+        SUMS(0, 0);
+    else if (!BRC_MANY_MATERIALS && ell_one == 0)
+        SUMS(1, 1);
+    else
+        SUMS(1, 0);
 #undef SUMS
     if (SPLIT_LOOPS) {
         p = lane_gather9(stress, who.own);
