@@ -113,11 +113,19 @@ brc_status brc_study_write_slurm(brc_context *context, const brc_study *study, c
 brc_status brc_study_write(brc_context *context, const brc_study *study, const char *folder,
                            const brc_study_outcome *outcome);
 
-/* fits.csv, and what means share with it: do two runs differ only in what is averaged over and in `by` (NULL:
- * nothing)? */
+/* Runs that differ only in what is averaged over and in `by`: those of group g are run[start[g]] to
+ * run[start[g + 1] - 1], growing; groups are in the order of their first runs. */
+typedef struct brc_study_groups {
+    int n;
+    int *run, *start; /* [n_runs], [n + 1]; owned */
+} brc_study_groups;
+
+/* by: key, or NULL: nothing; one: all runs are a group. Freed by brc_study_groups_free in any case. */
+brc_status brc_study_group(brc_context *context, const brc_study *study, const char *by, bool one,
+                           brc_study_groups *out);
+void brc_study_groups_free(brc_study_groups *groups);
 brc_status brc_study_write_fits(brc_context *context, const brc_study *study, const char *folder,
                                 const brc_study_outcome *outcome);
-bool brc_study_same_group(const brc_study *study, int run, int other, const char *by);
 bool brc_study_is_averaged(const brc_study_key *key);
 /* A cell of a table, in quotation marks where it has to be. */
 struct brc_text;

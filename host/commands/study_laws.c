@@ -38,11 +38,6 @@ static bool has_groups(const brc_study *study)
     return false;
 }
 
-static bool together(const brc_study *study, const brc_study_fit *fit, int run, int other)
-{
-    return !has_groups(study) || brc_study_same_group(study, run, other, fit->by);
-}
-
 static void add_number(brc_text *text, double value)
 {
     brc_text_add(text, ",");
@@ -70,42 +65,52 @@ static void add_rows(brc_text *text, const brc_study *study, const brc_study_fit
     }
 }
 
-/* The law of a measure over the runs of a group; x, y: [n_runs] room. */
+/* The law of a measure over the n runs of a group; x, y: [n] room. */
 static brc_study_found fit_measure(const brc_study *study, const brc_study_outcome *outcome, const brc_study_fit *fit,
-                                   int first, double *x, double *y)
+                                   int n_runs, const int *run, double *x, double *y)
 {
     int n = 0;
-    for (int run = first; run < study->n_runs; ++run) {
-        if (!together(study, fit, first, run)) continue;
-        y[n] = brc_study_measured(&outcome[run], fit->of);
-        x[n] = fit->by[0] ? key_value(study, run, fit->by) : 0;
+    for (int i = 0; i < n_runs; ++i) {
+        y[n] = brc_study_measured(&outcome[run[i]], fit->of);
+        x[n] = fit->by[0] ? key_value(study, run[i], fit->by) : 0;
         n += !isnan(x[n]) && !isnan(y[n]);
     }
     if (fit->law == BRC_STUDY_WEIBULL) return brc_study_fit_weibull(n, y);
     return fit->law == BRC_STUDY_POWER ? brc_study_fit_power(n, x, y) : brc_study_fit_size_effect(n, x, y);
 }
 
-static brc_status fit_fragments(brc_context *context, const brc_study *study, const char *folder,
-                                const brc_study_outcome *outcome, const brc_study_fit *fit, int first,
-                                brc_study_found *found)
+static brc_status fit_fragments(brc_context *context, const char *folder, const brc_study_outcome *outcome,
+                                const brc_study_fit *fit, int n_runs, const int *run, brc_study_found *found)
 {
     brc_study_pieces pieces = {0};
     brc_status status = BRC_OK;
-    for (int run = first; status == BRC_OK && run < study->n_runs; ++run)
-        if (together(study, fit, first, run) && strcmp(outcome[run].status, "done") == 0)
-            status = brc_study_pieces_add(context, folder, run, &pieces);
+    for (int i = 0; status == BRC_OK && i < n_runs; ++i)
+        if (strcmp(outcome[run[i]].status, "done") == 0)
+            status = brc_study_pieces_add(context, folder, run[i], &pieces);
     if (status == BRC_OK) status = brc_study_pieces_sort(context, &pieces);
     if (status == BRC_OK) status = brc_study_fit_fragments(context, &pieces, fit, found);
     brc_study_pieces_free(&pieces);
     return status;
 }
 
-/* Is it the first run of its group? */
-static bool is_first(const brc_study *study, const brc_study_fit *fit, int run)
+/* The law for each group; x, y: [n_runs] room. */
+static brc_status add_fit(brc_context *context, const brc_study *study, const char *folder,
+                          const brc_study_outcome *outcome, const brc_study_fit *fit, double *x, double *y,
+                          brc_text *text)
 {
-    for (int other = 0; other < run; ++other)
-        if (together(study, fit, other, run)) return false;
-    return true;
+    brc_study_groups groups = {0};
+    brc_status status = brc_study_group(context, study, fit->by, !has_groups(study), &groups);
+    for (int g = 0; status == BRC_OK && g < groups.n; ++g) {
+        const int *run = groups.run + groups.start[g], n = groups.start[g + 1] - groups.start[g];
+        brc_study_found found;
+        if (fit->law <= BRC_STUDY_SIZE_EFFECT)
+            found = fit_measure(study, outcome, fit, n, run, x, y);
+        else
+            status = fit_fragments(context, folder, outcome, fit, n, run, &found);
+        if (status == BRC_OK) add_rows(text, study, fit, run[0], &found);
+    }
+    brc_study_groups_free(&groups);
+    return status;
 }
 
 brc_status brc_study_write_fits(brc_context *context, const brc_study *study, const char *folder,
@@ -119,18 +124,8 @@ brc_status brc_study_write_fits(brc_context *context, const brc_study *study, co
     for (int k = 0; k < study->n_keys && has_groups(study); ++k)
         if (!brc_study_is_averaged(&study->keys[k])) brc_text_add(&text, "%s,", study->keys[k].key);
     brc_text_add(&text, "law,measure,by,n,parameter,value,error\n");
-    for (int f = 0; f < study->n_fits; ++f) {
-        const brc_study_fit *fit = &study->fits[f];
-        for (int run = 0; run < study->n_runs; ++run) {
-            brc_study_found found;
-            if (!is_first(study, fit, run)) continue;
-            if (fit->law <= BRC_STUDY_SIZE_EFFECT)
-                found = fit_measure(study, outcome, fit, run, x, y);
-            else
-                BRC_TRY_OR(cleanup, fit_fragments(context, study, folder, outcome, fit, run, &found));
-            add_rows(&text, study, fit, run, &found);
-        }
-    }
+    for (int f = 0; f < study->n_fits; ++f)
+        BRC_TRY_OR(cleanup, add_fit(context, study, folder, outcome, &study->fits[f], x, y, &text));
     status = brc_text_write_into(&text, folder, "fits.csv");
 cleanup:
     if (status != BRC_OK) brc_text_free(&text);

@@ -80,23 +80,6 @@ static void add_table(brc_text *text, const brc_study *study, const brc_study_ou
 
 /* ---- means ---- */
 
-bool brc_study_is_averaged(const brc_study_key *key)
-{
-    return key->averaged || key->kind == BRC_STUDY_UNIFORM || key->kind == BRC_STUDY_NORMAL;
-}
-
-bool brc_study_same_group(const brc_study *study, int run, int other, const char *by)
-{
-    char one[VALUE], two[VALUE];
-    for (int k = 0; k < study->n_keys; ++k) {
-        const brc_study_key *key = &study->keys[k];
-        if (brc_study_is_averaged(key) || (by && strcmp(key->key, by) == 0)) continue;
-        brc_study_value(study, run, k, one, sizeof one);
-        if (strcmp(one, brc_study_value(study, other, k, two, sizeof two)) != 0) return false;
-    }
-    return true;
-}
-
 static void add_mean(brc_text *text, int n, const double *x)
 {
     double mean = 0, square = 0;
@@ -114,24 +97,26 @@ static void add_mean(brc_text *text, int n, const double *x)
     brc_text_add(text, "\n");
 }
 
-/* first: [n_runs] the first run of each one's group; x: [n_runs] room. */
-static void add_means(brc_text *text, const brc_study *study, const brc_study_outcome *outcome, const int *first,
-                      double *x)
+/* x: [n_runs] room. */
+static void add_means(brc_text *text, const brc_study *study, const brc_study_outcome *outcome,
+                      const brc_study_groups *groups, double *x)
 {
     const names all = measures_of(study, outcome);
     char value[VALUE];
     for (int k = 0; k < study->n_keys; ++k)
         if (!brc_study_is_averaged(&study->keys[k])) brc_text_add(text, "%s,", study->keys[k].key);
     brc_text_add(text, "measure,n,mean,deviation,confidence\n");
-    for (int run = 0; run < study->n_runs; ++run)
-        for (int m = 0; first[run] == run && m < all.n; ++m) {
+    for (int g = 0; g < groups->n; ++g)
+        for (int m = 0; m < all.n; ++m) {
             int n = 0;
-            for (int other = run; other < study->n_runs; ++other)
-                if (first[other] == run && !isnan(brc_study_measured(&outcome[other], all.name[m])))
-                    x[n++] = brc_study_measured(&outcome[other], all.name[m]);
+            for (int i = groups->start[g]; i < groups->start[g + 1]; ++i) {
+                x[n] = brc_study_measured(&outcome[groups->run[i]], all.name[m]);
+                n += !isnan(x[n]);
+            }
             if (n == 0) continue;
             for (int k = 0; k < study->n_keys; ++k) {
                 if (brc_study_is_averaged(&study->keys[k])) continue;
+                const int run = groups->run[groups->start[g]];
                 brc_study_add_cell(text, brc_study_value(study, run, k, value, sizeof value));
                 brc_text_add(text, ",");
             }
@@ -145,20 +130,17 @@ brc_status brc_study_write(brc_context *context, const brc_study *study, const c
 {
     brc_text table = {.context = context}, means = table;
     double *x = NULL;
-    int *first = NULL;
+    brc_study_groups groups = {0};
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &x, study->n_runs, "values of a study"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &first, study->n_runs, "groups of a study"));
-    for (int run = 0; run < study->n_runs; ++run)
-        for (first[run] = 0; !brc_study_same_group(study, first[run], run, NULL); ++first[run]) {
-        }
+    BRC_TRY_OR(cleanup, brc_study_group(context, study, NULL, false, &groups));
     add_table(&table, study, outcome);
     BRC_TRY_OR(cleanup, brc_text_write_into(&table, folder, "table.csv"));
-    add_means(&means, study, outcome, first, x);
+    add_means(&means, study, outcome, &groups, x);
     BRC_TRY_OR(cleanup, brc_text_write_into(&means, folder, "means.csv"));
     if (study->n_fits > 0) status = brc_study_write_fits(context, study, folder, outcome);
 cleanup:
     brc_memory_free(x);
-    brc_memory_free(first);
+    brc_study_groups_free(&groups);
     return status;
 }

@@ -205,6 +205,10 @@ const char *brc_hint_key(const brc_problems *problems, const brc_section *sectio
         snprintf(out, BRC_HINT, "; did you mean '%s'?", meant);
     else if (find_below(section, key, DEEP, path, sizeof path))
         snprintf(out, BRC_HINT, "; it belongs further in, as in %.200s", path);
+    else if (strchr(key, ':'))
+        snprintf(out, BRC_HINT, "; a blank belongs behind the colon of a key");
+    else if (isdigit((unsigned char)key[0]))
+        snprintf(out, BRC_HINT, "; a comma ends a value: decimals have a point");
     return out;
 }
 

@@ -213,7 +213,8 @@ static brc_status on_alias(builder *b, const yaml_event_t *event)
         copy->key = "";
         return place(b, copy);
     }
-    STOP(b, mark, "the alias *%.80s has no anchor &%.80s before it", name, name);
+    STOP(b, mark, "the alias *%.80s has no anchor &%.80s before it; a text that begins with * stands in quotes", name,
+         name);
 }
 
 static brc_status on_scalar(builder *b, const yaml_event_t *event)

@@ -29,10 +29,14 @@ const char *brc_entry_unit(const brc_entry *entry, const brc_scene *scene, const
 
 const char *brc_entry_expects(const brc_entry *entry, const char *unit, char *out, size_t size)
 {
-    char what[SENTENCE] = "", range[96];
+    char what[SENTENCE] = "", range[96], measured[64];
     const char *sample = entry->sample ? entry->sample : entry->given ? entry->given : "";
     const bool pure = unit[0] == '\0';
     if (entry->unit && strcmp(entry->unit, BRC_UNIT_MEASURE_TIME) == 0 && !pure) sample = "[0, 1 ms]";
+    if (entry->unit && strcmp(entry->unit, BRC_UNIT_MEASURE) == 0) {
+        snprintf(measured, sizeof measured, pure ? "1" : "1 %s", unit);
+        sample = measured;
+    }
     switch (entry->type) {
     case BRC_TYPE_QUANTITY:
         if (pure)
