@@ -63,12 +63,18 @@ def command(folder, out):
     ]
 
 
+def is_done(path):
+    """A run that is taken up again removes its summary, maybe between our finding and opening it."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return '"status": "done"' in file.read()
+    except FileNotFoundError:
+        return False
+
+
 def done(folder):
     """Runs that have come to their end."""
-    return sum(
-        '"status": "done"' in open(path, encoding="utf-8").read()
-        for path in glob.glob(os.path.join(folder, "*/summary.json"))
-    )
+    return sum(is_done(path) for path in glob.glob(os.path.join(folder, "*/summary.json")))
 
 
 def kill_after(line, folder, n):
