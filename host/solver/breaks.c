@@ -205,7 +205,7 @@ brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)
 
 double brc_simulation_beam_radius(const brc_simulation *s, int64_t e)
 {
-    return brc_is_beams(s) ? brc_beam_of_element(s, e)->radius : 0;
+    return s->beam ? brc_beam_of_element(s, e)->radius : 0;
 }
 
 /* Lowest element id of the fragment of e, with halved paths. */

@@ -2,18 +2,12 @@
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
 #include "closed_faces.h"
-#include "consistent.h"
 #include "contact.h"
-#include "rims.h"
+#include "rings.h"
 #include "strengths.h"
 #include "strikers_internal.h"
-#include "sym3.h"
 #include <math.h>
 
-/* An element is held while the smallest eigenvalue of A / (2 V) is above this share of its value in the whole body, and
- * above `support_least` (docs/notebook/fracture.md, Fracture of cells; 0.57 or more inside a body, 0.07 to 0.5 at its
- * boundary). */
-static const double support_share = 0.2, support_least = 0.05;
 static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
 
 /* ---- what is made once ---- */
@@ -53,87 +47,6 @@ cleanup:
     brc_memory_free(whole);
     brc_memory_free(least);
     brc_memory_free(twin);
-    return status;
-}
-
-/* What holds an element in the whole body, from the coefficients that the device has: *least: smallest eigenvalue of A
- * / (2 V) [-]; *stiff: largest eigenvalue of A^-1 (sum s (x) s + t (x) t) A^-1, t = sum s (cells_stiffness) [1/m^2]. */
-static void support_of(const brc_simulation *s, int64_t e, double *least, double *stiff)
-{
-    double a[6] = {0}, b[6] = {0}, total[3] = {0}, value[3], axis[3][3], root[3][3] = {{0}}, whole[6] = {0};
-    static const int at[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
-    for (int64_t h = s->domain->row_start[e]; h <= s->domain->row_start[e + 1]; ++h) { /* and once more for t */
-        const bool is_sum = h == s->domain->row_start[e + 1];
-        double x[3], ratio = 0;
-        if (!is_sum) brc_consistent_bond(s, e, h, x, &ratio);
-        for (int c = 0; c < 3; ++c) {
-            if (is_sum)
-                x[c] = total[c];
-            else
-                total[c] += x[c];
-        }
-        const double six[6] = {x[0] * x[0], x[1] * x[1], x[2] * x[2], x[1] * x[2], x[0] * x[2], x[0] * x[1]};
-        for (int c = 0; c < 6; ++c)
-            a[c] += ratio * six[c], b[c] += six[c];
-    }
-    brc_sym3_eigen(a, value, axis);
-    *least = 0.5 * value[0] / s->domain->volume[e];
-    *stiff = 0;
-    if (!(value[0] > 1e-12 * value[2])) return;
-    for (int i = 0; i < 3; ++i) /* A^-1 */
-        for (int j = 0; j < 3; ++j)
-            for (int k = 0; k < 3; ++k)
-                root[i][j] += axis[k][i] * axis[k][j] / value[k];
-    for (int i = 0; i < 3; ++i)
-        for (int j = i; j < 3; ++j)
-            for (int k = 0; k < 3; ++k)
-                for (int l = 0; l < 3; ++l)
-                    whole[at[i][j]] += root[i][k] * b[at[k][l]] * root[l][j];
-    brc_sym3_eigen(whole, value, NULL);
-    *stiff = value[2];
-}
-
-/* Per element: lambda + 2 mu, what it must keep of its support, and how stiff it may become: as the stiffest of the
- * whole body, whose frequency the time step bears. */
-static brc_status upload_elements(brc_simulation *s)
-{
-    const brc_layout *layout = s->layout;
-    brc_cell_breaks *cells = s->fracture->cells;
-    double *modulus = NULL, *support = NULL, *stiffest = NULL, largest = 0;
-    brc_status status = BRC_OK;
-    int64_t weak = 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &modulus, layout->n_rows, "moduli"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &stiffest, layout->n_rows, "supports"));
-#pragma omp parallel for schedule(static) reduction(+ : weak) reduction(max : largest)
-    for (int32_t r = 0; r < layout->n_rows; ++r) {
-        const int32_t e = layout->element_of_row[r];
-        if (e < 0) continue;
-        const brc_elastic *m = s->elastic + s->material_of_element[e];
-        double whole, stiff;
-        support_of(s, e, &whole, &stiff);
-        modulus[r] = m->lambda + 2 * m->mu;
-        support[r] = fmax(support_share * whole, support_least);
-        weak += whole <= support_least;
-        largest = fmax(largest, modulus[r] / m->density * stiff);
-    }
-    for (int32_t r = 0; r < layout->n_rows; ++r) {
-        const int32_t e = layout->element_of_row[r];
-        if (e >= 0) stiffest[r] = largest * s->elastic[s->material_of_element[e]].density / modulus[r];
-    }
-    if (weak)
-        brc_log(s->context, BRC_LOG_WARNING,
-                "fracture: %lld of %lld elements are held by their neighbours so weakly (smallest eigenvalue of A/2V "
-                "up to %.2g) that they come off with "
-                "their first broken bond; a relaxed grid (`lloyd`) has fewer",
-                (long long)weak, (long long)s->domain->n_elements, support_least);
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->modulus, modulus, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->support, support, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->stiffest, stiffest, layout->n_rows));
-cleanup:
-    brc_memory_free(modulus);
-    brc_memory_free(support);
-    brc_memory_free(stiffest);
     return status;
 }
 
@@ -193,24 +106,11 @@ const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *
 
 static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
 {
-    const bool dlsm = brc_is_dlsm(s), by_bond = dlsm && !c->by_element;
-    const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run);
-    brc_cell_scopes of_state, of_request;
+    const brc_scope run = brc_scope_of_run(s);
+    brc_cell_scopes of_state;
     const brc_scope *state = brc_cell_scopes_make(s, &run, &of_state);
-    const brc_pass_wanted wanted[] = {{&c->check, "cells_check", "share", !by_bond},
-                                      {&c->ratio, "cells_ratio", "out", !by_bond},
-                                      BRC_PASS(&c->break_pass, "cells_break", "step width"),
-                                      {&c->rebuild, "cells_rebuild", NULL, !dlsm},
-                                      BRC_PASS(&c->share, "cells_share", "step per_weight list"),
-                                      {&c->elastic, "dlsm_elastic_listed", BRC_LISTED, !dlsm},
-                                      {&c->bonds, "dlsm_bonds_listed", BRC_LISTED, !dlsm}};
-    BRC_TRY(BRC_PASSES_MAKE(s, state, wanted));
-    /* a request is asked first */
-    brc_scope evaluation = brc_scope_of_request(brc_cell_scopes_make(s, &request, &of_request));
-    const brc_pass_wanted of_force[] = {{&c->force, "cells_force", NULL, !by_bond},
-                                        {&c->force_listed, "cells_force_listed", BRC_LISTED, !by_bond}};
-    BRC_TRY(BRC_PASSES_MAKE(s, &evaluation, of_force));
-    return brc_rims_make_passes(s, state);
+    return BRC_PASSES(s, state, BRC_PASS(&c->break_pass, "cells_break", "step width"),
+                      BRC_PASS(&c->share, "cells_share", "step per_weight list"));
 }
 
 brc_status brc_cell_breaks_create(brc_simulation *s)
@@ -222,10 +122,9 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     s->fracture->cells->by_element = !brc_scene_breaks_by_bond(s->scene, s->scene->model.kind);
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
-    if (brc_is_dlsm(s)) BRC_TRY_OR(cleanup, upload_elements(s));
     BRC_TRY_OR(cleanup, brc_rings_create(s, &s->fracture->cells->rings));
     BRC_TRY_OR(cleanup, make_passes(s, s->fracture->cells));
-    if (brc_is_published(s)) BRC_TRY_OR(cleanup, brc_published_breaks_create(s));
+    BRC_TRY_OR(cleanup, s->model->breaking->create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
     BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
     BRC_TRY_OR(cleanup, brc_closed_faces_create(s));
@@ -253,23 +152,11 @@ bool brc_cell_breaks_by_bond(const brc_simulation *s)
     return s->fracture && s->fracture->cells && !s->fracture->cells->by_element;
 }
 
-bool brc_cell_breaks_screens(const brc_simulation *s)
-{
-    return brc_cell_breaks_by_bond(s) && brc_is_dlsm(s) && !brc_softening_is_on(s);
-}
-
-brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
-{
-    const brc_cell_breaks *c = s->fracture->cells;
-    return brc_pass_over(s, c->force, c->force_listed, list, ring, r, NULL);
-}
-
 /* Bonds above a share of their limit are marked; *n: marks. */
 static brc_status mark_bonds(brc_simulation *s, double share, double *n)
 {
     brc_cell_breaks *c = s->fracture->cells;
     if (c->by_element) return brc_cell_criteria_mark(s, n);
-    if (brc_is_published(s)) return brc_published_breaks_mark(s, share, n);
     BRC_TRY(BRC_RUN(c->check, s->n_groups, {"share", BRC_COEFF(share)}));
     return brc_ahead_count(s, c->found, s->n_groups, n);
 }
@@ -289,10 +176,8 @@ static brc_status break_marked(brc_simulation *s, double *energy)
         *energy += more;
         BRC_TRY(brc_closed_faces_keep(s));
         BRC_TRY(BRC_RUN(c->break_pass, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))},
-                        {"width", BRC_INT(brc_is_dlsm(s) ? 3 : 1)}));
-        if (brc_is_published(s)) return brc_published_breaks_rebuild(s); /* its elements hang on by any bond */
-        BRC_TRY(brc_pass_run(c->rebuild, s->n_groups));
-        BRC_TRY(brc_vector_sum(s, c->found, s->n_groups, &left));
+                        {"width", BRC_INT(s->model->breaking->area_width)}));
+        BRC_TRY(s->model->breaking->rebuild(s, &left));
     }
     return BRC_OK;
 }
@@ -321,7 +206,7 @@ static brc_status kick_others(brc_simulation *s, double by)
 static brc_status find_rings(brc_simulation *s)
 {
     brc_rings *rings = s->fracture->cells->rings;
-    const bool wide = !brc_is_published(s);
+    const bool wide = s->model->breaking->wide;
     if (s->contact) {
         const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
         BRC_TRY(brc_contact_broken(s, 0));
@@ -337,7 +222,8 @@ static brc_status find_rings(brc_simulation *s)
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
     BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
-    return brc_rings_close(s, rings, brc_rims_may_gain(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, &rings->around);
+    return brc_rings_close(s, rings, s->model->breaking->places(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP,
+                           &rings->around);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in
@@ -393,23 +279,13 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     return brc_contact_list_bonded(s);
 }
 
+brc_status brc_cell_breaks_fail(brc_simulation *s, double half_kick)
+{
+    return brc_cell_breaks_step(s, half_kick, 1);
+}
+
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)
 {
-    brc_cell_breaks *c = s->fracture->cells;
-    brc_buffer *ratio = NULL;
-    double *value = NULL;
-    brc_status status = BRC_OK;
     *out = 0;
-    if (c->by_element) return brc_cell_criteria_ratio(s, out);
-    if (brc_is_published(s)) return brc_published_breaks_ratio(s, out);
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_RUN(c->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
-    BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
-    for (int64_t e = 0; e < s->domain->n_elements; ++e)
-        *out = fmax(*out, value[e]);
-cleanup:
-    brc_buffer_free(&ratio);
-    brc_memory_free(value);
-    return status;
+    return s->fracture->cells->by_element ? brc_cell_criteria_ratio(s, out) : s->model->breaking->ratio(s, out);
 }

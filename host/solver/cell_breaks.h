@@ -12,15 +12,12 @@ brc_status brc_cell_breaks_create(brc_simulation *s);
 void brc_cell_breaks_free(brc_simulation *s);
 /* Bonds break by a stress of their own, for which the forces of the full law are found with what the check needs. */
 bool brc_cell_breaks_by_bond(const brc_simulation *s);
-/* The last pass of dlsm's full law, but for that after breaks, finds which elements may lose bonds: the next function
- * in its place, of the rings 0 to `ring` of a list, NULL: of all. */
-bool brc_cell_breaks_screens(const brc_simulation *s);
-brc_status brc_cell_breaks_forces(brc_simulation *s, const brc_force_request *r, const struct brc_ring_list *list,
-                                  int ring);
-/* After the forces of a step: bonds above `share` of their limit break (1: those that fail). half_kick: dt/2 where the
+/* After the forces of a step: bonds above `share` of their limit break. half_kick: dt/2 where the
  * step's velocities still want the force at its end, half of it that of before the breaks (velocity Verlet); 0:
  * none. */
 brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share);
+/* The same with share 1: bonds that fail break. */
+brc_status brc_cell_breaks_fail(brc_simulation *s, double half_kick);
 extern const brc_field_table brc_cell_break_fields;
 /* The largest ratio of stress to limit. */
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out);

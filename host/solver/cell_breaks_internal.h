@@ -1,5 +1,5 @@
-/* Fracture of cells, shared by its files: bonds by their normal stress in dlsm (cell_breaks.c) and dlsm-published
- * (published_breaks.c), elements by their own stress in both (cell_criteria.c). */
+/* Fracture of cells, shared by its files: bonds by their normal stress in dlsm and dlsm-published
+ * (models/), elements by their own stress in both (cell_criteria.c). */
 #ifndef BRC_SOLVER_CELL_BREAKS_INTERNAL_H
 #define BRC_SOLVER_CELL_BREAKS_INTERNAL_H
 
@@ -31,19 +31,6 @@ typedef struct brc_cell_scopes {
     brc_scope breaks, rings, cells;
 } brc_cell_scopes;
 const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *outer, brc_cell_scopes *room);
-
-/* ---- published_breaks.c: bonds of dlsm-published by their normal stress ---- */
-brc_status brc_published_breaks_create(brc_simulation *s);
-/* Strains of either law, by least squares over the bonds that are left. */
-brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r);
-/* Forces of the full law, with what the next two need. */
-brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r);
-/* Bonds above share of their limit are marked; *n: marks. */
-brc_status brc_published_breaks_mark(brc_simulation *s, double share, double *n);
-/* Least squares of elements that lost bonds, by either criterion. */
-brc_status brc_published_breaks_rebuild(brc_simulation *s);
-/* The largest ratio of stress to limit. */
-brc_status brc_published_breaks_ratio(brc_simulation *s, double *out);
 
 /* ---- cell_criteria.c: elements by their stress ---- */
 brc_status brc_cell_criteria_create(brc_simulation *s);

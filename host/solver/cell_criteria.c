@@ -4,40 +4,19 @@
 #include "ahead.h"
 #include "cell_breaks_internal.h"
 
-/* dlsm stores areas and ratios in place of branches. */
-static brc_status upload_branches(brc_simulation *s, brc_buffer *branch)
-{
-    const brc_layout *layout = s->layout;
-    const brc_domain *d = s->domain;
-    const int64_t slice = layout->slice;
-    double *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, 3 * layout->n_slots * slice, "branches"));
-    for (int64_t k = 0; k < layout->n_slots * slice; ++k) {
-        const int32_t h = layout->half_edge[k];
-        for (int c = 0; c < 3; ++c)
-            rows[(k / slice * 3 + c) * slice + k % slice] =
-                h < 0 ? c == 0
-                      : d->position[3 * (int64_t)d->neighbour[h] + c] -
-                            d->position[3 * (int64_t)d->neighbour[d->twin[h]] + c];
-    }
-    const brc_status status = brc_upload_coeff(s, branch, rows, 3 * layout->n_slots * slice);
-    brc_memory_free(rows);
-    return status;
-}
-
 brc_status brc_cell_criteria_create(brc_simulation *s)
 {
     brc_cell_breaks *c = s->fracture->cells;
-    if (brc_is_dlsm(s)) BRC_TRY(upload_branches(s, c->branch));
-    BRC_TRY(brc_fracture_create_elements(s, brc_is_dlsm(s) ? c->branch : s->offset));
+    brc_buffer *branch = NULL;
+    BRC_TRY(s->model->breaking->branches(s, &branch));
+    BRC_TRY(brc_fracture_create_elements(s, branch));
     const brc_scope run = brc_scope_of_run(s), criterion = brc_scope_of_criterion(s, &run);
     static const brc_value_row stresses[] = {
         {"stress", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, stress)}}; /* not those of the criterion */
     const brc_scope state = {.owner = "stresses of dlsm", .base = s, BRC_VALUES(stresses), .outer = &criterion};
     brc_cell_scopes scopes;
     const brc_scope *cells = brc_cell_scopes_make(s, &criterion, &scopes);
-    BRC_TRY(BRC_PASSES(s, &state,
-                       BRC_PASS(&c->record, brc_is_dlsm(s) ? "cells_record" : "cells_record_published", NULL),
+    BRC_TRY(BRC_PASSES(s, &state, BRC_PASS(&c->record, s->model->breaking->record, NULL),
                        BRC_PASS(&c->weigh, "cells_weigh", NULL)));
     return BRC_PASSES(s, cells, BRC_PASS(&c->mark_chosen, "cells_mark_chosen", "stress"));
 }
@@ -46,7 +25,6 @@ brc_status brc_cell_criteria_create(brc_simulation *s)
 static brc_status record(brc_simulation *s)
 {
     const brc_breaking *f = s->fracture;
-    if (brc_is_dlsm(s)) return brc_pass_run(f->cells->record, s->n_groups);
     return brc_pass_run(f->cells->record, s->n_groups);
 }
 

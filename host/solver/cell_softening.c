@@ -230,7 +230,7 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
 {
     if (!s->fracture->cells->by_element) tell_implied(s, strengths);
     if (!strengths->softens) return BRC_OK;
-    if (!brc_is_dlsm(s) || s->fracture->cells->by_element)
+    if (!s->model->breaking->cohesion || s->fracture->cells->by_element)
         return BRC_FAIL(
             s->context, BRC_BAD_INPUT,
             "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "

@@ -1,7 +1,7 @@
 #include "closed_faces.h"
 #include "cell_breaks_internal.h"
 #include "cell_softening.h"
-#include "rims.h"
+#include "models/dlsm/rims.h"
 #include <limits.h>
 
 /* Gap and slide over the length of the bond from which on the sides of a broken face stand clear of each other. */

@@ -1,11 +1,8 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
 #include "beam_closure.h"
-#include "beam_law.h"
 #include "beam_softening.h"
 #include "cell_breaks.h"
-#include "contact.h"
 #include "fracture_internal.h"
-#include "strength_law.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,68 +42,10 @@ static double shear_limit(const brc_fracture *f, double *slope)
     return 0;
 }
 
-/* k of one body's beams; and nominal, what the test that the material's strength is from reads over the strength in
- * tension, 1 where that is tension [-, both]. Refused by the body's own coordination number; taken at that of the cube
- * of 10 000 spheres with as many bonds inside, since a body's walls should no more change its strength than its
- * stiffness. */
-static brc_status strength_ratio(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double *k,
-                                 double *nominal)
+/* The stress of a cell is that of the solid. */
+static brc_status limits_of_solid(const brc_limit_case *of, double limit[3])
 {
-    const brc_domain *d = s->domain;
-    const brc_strength_law *law = brc_strength_law_default();
-    brc_beam_body bonds;
-    double least = INFINITY, most = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        if (d->body[e] != body) continue;
-        least = fmin(least, d->radius[e]);
-        most = fmax(most, d->radius[e]);
-    }
-    BRC_TRY(brc_beam_body_of(s->context, d, body, &bonds));
-    BRC_TRY(brc_strength_law_find(s->context, law, bonds.coordination, radius_ratio, k));
-    const double coordination =
-        brc_beam_law_coordination(brc_beam_law_for(most > 0 ? (most - least) / (most + least) : 0), &bonds);
-    *k = brc_strength_law_ratio(law, coordination, radius_ratio);
-    brc_log(s->context, BRC_LOG_INFO,
-            "material '%s': limits are the strengths over k = %.4f (%s, r_m %.4g, coordination number %.4g, as of "
-            "cubes of 10 000 spheres with %.4g; %s: %.4f)",
-            m->name, *k, law->name, radius_ratio, bonds.coordination, coordination, brc_strength_law_published()->name,
-            brc_strength_law_ratio(brc_strength_law_published(), coordination, radius_ratio));
-    *nominal = 1;
-    if (m->measured_by == BRC_STRENGTH_BY_TENSION) return BRC_OK;
-    double disc;
-    BRC_TRY(brc_strength_law_disc(s->context, coordination, radius_ratio, &disc));
-    *nominal = m->measured_by == BRC_STRENGTH_BY_EITHER ? brc_strength_law_either(disc) : disc;
-    brc_log(s->context, BRC_LOG_INFO,
-            "material '%s': discs of its packing split at %.4g of the strength in tension, which is taken as %.4g Pa "
-            "for %.4g Pa measured by %s",
-            m->name, disc, m->tension / *nominal, m->tension,
-            m->measured_by == BRC_STRENGTH_BY_EITHER ? "either test" : "them");
-    return BRC_OK;
-}
-
-/* Limits of the virial stress of one material in one body. */
-static brc_status limits_of(brc_simulation *s, const brc_material *m, int32_t body, double radius_ratio, double shear,
-                            double limit[3])
-{
-    double k = 1, nominal = 1;
-    limit[0] = limit[1] = limit[2] = 0;
-    if (!brc_is_beams(s)) { /* the stress of a cell is that of the solid */
-        limit[0] = m->tension, limit[1] = m->compression, limit[2] = shear;
-        return BRC_OK;
-    }
-    const bool by_law =
-        (m->tension > 0 && !(m->beam_strength > 0)) || (m->compression > 0 && !(m->beam_compression > 0)) || shear > 0;
-    if (by_law) {
-        BRC_TRY(strength_ratio(s, m, body, radius_ratio, &k, &nominal));
-        if (s->scene->fracture.level != 1)
-            brc_log(s->context, BRC_LOG_WARNING,
-                    "fracture: the law for strength was fitted for level 1, the scene asks for level %d; give "
-                    "beam: {strength: ...} where that matters",
-                    (int)s->scene->fracture.level);
-    }
-    limit[0] = m->beam_strength > 0 ? m->beam_strength : m->tension / (k * nominal);
-    limit[1] = m->beam_compression > 0 ? m->beam_compression : m->compression / k;
-    limit[2] = shear / k;
+    limit[0] = of->material->tension, limit[1] = of->material->compression, limit[2] = of->shear;
     return BRC_OK;
 }
 
@@ -133,10 +72,11 @@ static brc_status find_limits(brc_simulation *s)
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0, m = s->material_of_element[e],
                       at = b * n_materials + m;
-        const double radius_ratio =
-            brc_is_beams(s) && !known[at] ? brc_beam_of_element(s, e)->radius * (double)count[b] / mean[b] : 0;
-        if (!known[at])
-            BRC_TRY_OR(cleanup, limits_of(s, &s->scene->materials[m], b, radius_ratio, shear, pair + 3 * at));
+        if (!known[at]) {
+            const brc_limit_case of = {&s->scene->materials[m], b, e, (double)count[b], mean[b], shear};
+            BRC_TRY_OR(cleanup, s->model->limits ? s->model->limits(s, &of, pair + 3 * at)
+                                                 : limits_of_solid(&of, pair + 3 * at));
+        }
         known[at] = true;
         memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
     }
@@ -259,17 +199,14 @@ brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer
 static brc_status make_passes(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
-    const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run),
-                    breaks = brc_scope_of_breaks(s, &run), criterion = brc_scope_of_criterion(s, &breaks);
+    const brc_scope run = brc_scope_of_run(s), breaks = brc_scope_of_breaks(s, &run),
+                    criterion = brc_scope_of_criterion(s, &breaks);
     const brc_pass_wanted of_state[] = {BRC_PASS(&f->stress_pass, "fracture_stress", "level"),
                                         BRC_PASS(&f->stress_second, "fracture_stress_second", NULL),
                                         BRC_PASS(&f->check, "fracture_check", "level step"),
                                         BRC_PASS(&f->choose, "fracture_choose", "step"),
-                                        BRC_PASS(&f->ratio, "fracture_ratio", "ratio"),
-                                        {&f->break_pass, "fracture_break", "level step half_kick", !brc_is_beams(s)}};
-    BRC_TRY(BRC_PASSES_MAKE(s, &criterion, of_state));
-    const brc_scope evaluation = brc_scope_of_criterion(s, &request);
-    return BRC_PASSES(s, &evaluation, {&f->force, "fracture_force", NULL, !brc_is_beams(s)});
+                                        BRC_PASS(&f->ratio, "fracture_ratio", "ratio")};
+    return BRC_PASSES_MAKE(s, &criterion, of_state);
 }
 
 /* Elements within two shells of one: no more than degrees allow. */
@@ -295,7 +232,8 @@ brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
         return BRC_FAIL(
             s->context, BRC_BAD_INPUT,
             "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1%s",
-            (long long)most_members(s->domain), MOST_MEMBERS, brc_is_beams(s) ? " or a lower coordination number" : "");
+            (long long)most_members(s->domain), MOST_MEMBERS,
+            brc_has_spheres(s) ? " or a lower coordination number" : "");
     f->branch = branch;
     f->drucker_prager = criterion(s) == BRC_CRITERION_DRUCKER_PRAGER;
     BRC_TRY(make_passes(s));
@@ -329,9 +267,7 @@ brc_status brc_fracture_create(brc_simulation *s)
     tell_unbreakable(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
     BRC_TRY(brc_fields_create(s->device, &brc_break_fields, &s->wants, s->fracture));
-    if (!brc_is_beams(s)) return brc_cell_breaks_create(s);
-    BRC_TRY(brc_fracture_create_elements(s, s->offset));
-    return brc_beam_closure_create(s);
+    return s->model->create_fracture(s);
 }
 
 void brc_fracture_free(brc_simulation *s)
@@ -353,14 +289,6 @@ void brc_fracture_free(brc_simulation *s)
 
 /* ---- the step ---- */
 
-brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r)
-{
-    const brc_breaking *f = s->fracture;
-    BRC_TRY(brc_pass_run_on(f->force, s->n_groups, r, NULL, NULL));
-    BRC_TRY(brc_beam_softening_force(s, r));
-    return brc_beam_closure_force(s, r);
-}
-
 static brc_status find_stress(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
@@ -380,20 +308,7 @@ brc_status brc_fracture_choose(brc_simulation *s, int32_t moment)
 
 brc_status brc_fracture_step(brc_simulation *s, double half_kick)
 {
-    brc_breaking *f = s->fracture;
-    const int32_t moment = (int32_t)brc_fracture_moment(s);
-    if (f->cells) return brc_cell_breaks_step(s, half_kick, 1);
-    BRC_TRY(brc_fracture_choose(s, moment));
-    BRC_TRY(brc_beam_softening_begin(s, moment));
-    BRC_TRY(BRC_RUN(f->break_pass, s->n_groups, {"level", BRC_INT(s->scene->fracture.level)}, {"step", BRC_INT(moment)},
-                    {"half_kick", BRC_STATE(half_kick)}));
-    BRC_TRY(brc_beam_softening_end(s, moment));
-    BRC_TRY(brc_beam_closure_begin(s, moment, half_kick));
-    BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
-    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
-    BRC_TRY(brc_contact_broken(s, half_kick));
-    brc_phase_within(s, before);
-    return BRC_OK;
+    return s->model->break_bonds(s, half_kick);
 }
 
 brc_status brc_fracture_lost(brc_simulation *s, double *out)

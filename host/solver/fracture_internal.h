@@ -66,8 +66,6 @@ brc_status brc_fracture_begin_stage(brc_simulation *s);
 int64_t brc_fracture_moment(const brc_simulation *s);
 /* An event of a static stage at the present load factor: what brc_fracture_step breaks next belongs to it. */
 brc_status brc_fracture_begin_event(brc_simulation *s);
-/* Forces of the full law, with the records that brc_fracture_step needs. */
-brc_status brc_fracture_force(brc_simulation *s, const brc_force_request *r);
 /* After the forces of a step: break what fails. half_kick: as in kernels/fracture.cl. */
 brc_status brc_fracture_step(brc_simulation *s, double half_kick);
 /* Energy that left with broken bonds [J]. */

@@ -1,6 +1,5 @@
 /* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares,
  * masses. */
-#include "consistent.h"
 #include "simulation_internal.h"
 #include "sym3.h"
 #include <math.h>
@@ -37,13 +36,11 @@ static void half_edge_geometry(const brc_domain *d, int64_t h, int32_t i, double
     *ratio = sqrt(length / surface);
 }
 
-/* Fill [n_slots][width][C] from the half-edges. */
-typedef enum row_kind { ROW_AREA, ROW_OFFSET, ROW_RATIO, ROW_BRANCH, ROW_SURFACE, ROW_INVERSE_LENGTH } row_kind;
-static brc_status upload_rows(brc_simulation *s, brc_buffer *buffer, row_kind kind)
+brc_status brc_geometry_rows(brc_simulation *s, brc_buffer *buffer, int width, brc_bond_values values,
+                             const double missing[3])
 {
     const brc_layout *layout = s->layout;
-    const int slice = layout->slice,
-              width = kind == ROW_RATIO || kind == ROW_SURFACE || kind == ROW_INVERSE_LENGTH ? 1 : 3;
+    const int slice = layout->slice;
     double *rows = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice * width, "neighbour rows"));
 #pragma omp parallel for schedule(static)
@@ -51,28 +48,26 @@ static brc_status upload_rows(brc_simulation *s, brc_buffer *buffer, row_kind ki
         for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
             for (int l = 0; l < slice; ++l) {
                 const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
-                /* missing neighbours point home: zero area, any non-zero ratio and branch */
-                double branch[3] = {1, 0, 0}, area[3] = {0, 0, 0}, offset[3] = {0, 0, 0}, ratio = 1;
-                double inverse = 0; /* missing: no stiffness */
-                if (h >= 0 && brc_is_beams(s)) {
-                    branch_of(s->domain, h, layout->element_of_row[block * slice + l], branch);
-                    inverse = 1 / sqrt(branch[0] * branch[0] + branch[1] * branch[1] + branch[2] * branch[2]);
-                } else if (h >= 0)
-                    half_edge_geometry(s->domain, h, layout->element_of_row[block * slice + l], branch, area, offset,
-                                       &ratio);
-                if (h >= 0 && (kind == ROW_AREA || kind == ROW_RATIO))
-                    brc_consistent_bond(s, layout->element_of_row[block * slice + l], h, area, &ratio);
-                const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-                const double *from = kind == ROW_AREA ? area : kind == ROW_OFFSET ? offset : branch;
+                double value[3];
+                memcpy(value, missing, sizeof value);
+                if (h >= 0) values(s, layout->element_of_row[block * slice + l], h, value);
                 for (int c = 0; c < width; ++c)
-                    rows[((int64_t)slot * width + c) * slice + l] = kind == ROW_RATIO            ? ratio
-                                                                    : kind == ROW_SURFACE        ? surface
-                                                                    : kind == ROW_INVERSE_LENGTH ? inverse
-                                                                                                 : from[c];
+                    rows[((int64_t)slot * width + c) * slice + l] = value[c];
             }
     const brc_status status = brc_upload_coeff(s, buffer, rows, layout->n_slots * slice * width);
     brc_memory_free(rows);
     return status;
+}
+
+static void branch_values(const brc_simulation *s, int64_t e, int64_t h, double out[3])
+{
+    branch_of(s->domain, h, (int32_t)e, out);
+}
+
+brc_status brc_geometry_branches(brc_simulation *s, brc_buffer *buffer)
+{
+    static const double missing[3] = {1, 0, 0};
+    return brc_geometry_rows(s, buffer, 3, branch_values, missing);
 }
 
 static brc_status upload_connectivity(brc_simulation *s)
@@ -95,11 +90,10 @@ static brc_status upload_connectivity(brc_simulation *s)
     return status;
 }
 
-/* Least-squares matrix of an element: dlsm A = sum (S/L) R (x) R; published with weight 1 or S/L. */
-static void shape_matrix(const brc_simulation *s, int64_t e, double out[6])
+/* Least-squares matrix of an element: sum w R (x) R, w 1 or S/L. */
+static void shape_matrix(const brc_simulation *s, int64_t e, bool weighted, double out[6])
 {
     const brc_domain *d = s->domain;
-    const bool weighted = !brc_is_published(s) || s->scene->model.area_weights;
     memset(out, 0, 6 * sizeof *out);
     for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
         double r[3], area[3], offset[3], ratio;
@@ -114,7 +108,7 @@ static void shape_matrix(const brc_simulation *s, int64_t e, double out[6])
     }
 }
 
-static brc_status upload_inverse_shapes(brc_simulation *s)
+brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refinement refine)
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
@@ -128,10 +122,10 @@ static brc_status upload_inverse_shapes(brc_simulation *s)
         const int32_t e = layout->element_of_row[r];
         if (e < 0) continue;
         double a[6], inverse[6];
-        shape_matrix(s, e, a);
+        shape_matrix(s, e, weighted, a);
         const int spanned = brc_sym3_pseudo_inverse(a, least_span, inverse);
         flat += spanned < 3;
-        if (spanned == 3 && !brc_is_published(s)) brc_consistent_inverse(s, e, inverse);
+        if (spanned == 3 && refine) refine(s, e, inverse);
         for (int c = 0; c < 6; ++c)
             blocks[((int64_t)(r / slice) * 6 + c) * slice + r % slice] = inverse[c];
     }
@@ -160,16 +154,15 @@ static brc_status upload_masses(brc_simulation *s)
     if (s->scene->has_gravity) { /* padding has a mass to be divided by; falling, it would have an energy of its own */
         BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->weight, values, 1, 0));
     }
-    if (s->model->turns) {
-        if (brc_is_published(s)) {
-            BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
-        }
+    if (s->volume) BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
+    if (s->inertia) {
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
         for (int64_t e = 0; e < d->n_elements; ++e)
             values[e] = s->elastic[s->material_of_element[e]].density *
                         (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
         BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->inertia, values, 1, 1));
-    } else {
+    }
+    if (s->inv_volume) {
         for (int32_t r = 0; r < layout->n_rows; ++r)
             values[r] = layout->element_of_row[r] < 0 ? 1 : 1 / d->volume[layout->element_of_row[r]];
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->inv_volume, values, layout->n_rows));
@@ -179,8 +172,7 @@ cleanup:
     return status;
 }
 
-/* Per-element constants, only for several materials. */
-static brc_status upload_materials(brc_simulation *s)
+brc_status brc_geometry_materials(brc_simulation *s)
 {
     if (!brc_device_has_many_materials(s->device)) return BRC_OK;
     const brc_layout *layout = s->layout;
@@ -203,7 +195,7 @@ static brc_status upload_materials(brc_simulation *s)
         lame[3 * (int64_t)r + 1] = m->mu;
         lame[3 * (int64_t)r + 2] = m->young;
     }
-    if (brc_is_published(s)) {
+    if (s->lame_of) {
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->lame_of, lame, (int64_t)layout->n_rows * 3));
     } else {
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->material, blocks, (int64_t)layout->n_rows * 4));
@@ -275,20 +267,7 @@ brc_status brc_geometry_create(brc_simulation *s)
     BRC_TRY(brc_fields_create(s->device, &brc_geometry_fields, &s->wants, s));
     BRC_TRY(upload_connectivity(s));
     BRC_TRY(upload_masses(s));
-    if (brc_is_beams(s)) {
-        BRC_TRY(brc_beams_upload(s));
-        BRC_TRY(upload_rows(s, s->offset, ROW_BRANCH));
-        return upload_rows(s, s->ratio, ROW_INVERSE_LENGTH);
-    }
-    BRC_TRY(upload_inverse_shapes(s));
-    BRC_TRY(upload_materials(s));
-    if (brc_is_published(s)) {
-        BRC_TRY(upload_rows(s, s->offset, ROW_BRANCH));
-        return upload_rows(s, s->area, ROW_SURFACE);
-    }
-    BRC_TRY(upload_rows(s, s->area, ROW_AREA));
-    BRC_TRY(upload_rows(s, s->offset, ROW_OFFSET));
-    return upload_rows(s, s->ratio, ROW_RATIO);
+    return s->model->upload(s);
 }
 
 void brc_geometry_free(brc_simulation *s)

@@ -92,7 +92,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, find_materials(s));
     brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
     s->n_groups = s->wants.n_groups;
-    if (brc_is_beams(s)) BRC_TRY_OR(cleanup, brc_beams_create(s));
+    if (s->model->create) BRC_TRY_OR(cleanup, s->model->create(s));
     BRC_TRY_OR(cleanup, brc_run_passes_make(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, brc_simulation_fields_create(s));

@@ -272,6 +272,19 @@ void brc_simulation_fields_free(brc_simulation *s);
 extern const brc_field_table brc_geometry_fields; /* of it what breaks change is kept */
 brc_status brc_geometry_create(brc_simulation *s);
 void brc_geometry_free(brc_simulation *s);
+/* Numbers of half-edge h of element e. */
+typedef void (*brc_bond_values)(const brc_simulation *s, int64_t e, int64_t h, double out[3]);
+/* They, `width` each, of all half-edges into [n_slots][width][C]; missing: where a row has no neighbour. */
+brc_status brc_geometry_rows(brc_simulation *s, brc_buffer *buffer, int width, brc_bond_values values,
+                             const double missing[3]);
+/* Branches likewise. */
+brc_status brc_geometry_branches(brc_simulation *s, brc_buffer *buffer);
+/* Inverses of the least-squares matrices, with weights 1 or S/L; refine: another inverse where neighbours span space,
+ * or NULL. */
+typedef void (*brc_shape_refinement)(const brc_simulation *s, int64_t e, double inverse[6]);
+brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refinement refine);
+/* Constants of each element, only for several materials. */
+brc_status brc_geometry_materials(brc_simulation *s);
 /* Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out);
 
@@ -385,18 +398,6 @@ static inline const brc_stage *brc_current_stage(const brc_simulation *s)
 static inline bool brc_has_spheres(const brc_simulation *s)
 {
     return s->model->element == BRC_ELEMENT_SPHERE;
-}
-static inline bool brc_is_beams(const brc_simulation *s)
-{
-    return s->scene->model.kind == BRC_MODEL_CBM;
-}
-static inline bool brc_is_dlsm(const brc_simulation *s)
-{
-    return s->scene->model.kind == BRC_MODEL_DLSM;
-}
-static inline bool brc_is_published(const brc_simulation *s)
-{
-    return s->scene->model.kind == BRC_MODEL_DLSM_PUBLISHED;
 }
 
 #endif

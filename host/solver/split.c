@@ -1,5 +1,6 @@
 /* Which bodies share a model, and the scene of each such part. Handing out what the stages ask is in split_share.c. */
 #include "split.h"
+#include "models/model.h"
 #include "../base/memory.h"
 #include <stdio.h>
 #include <string.h>
@@ -113,7 +114,8 @@ static brc_status check_polish(brc_context *context, const brc_split *split)
         for (int32_t other = 0; other < k; ++other)
             for (int32_t m = 0; m < split->scene->n_materials; ++m) {
                 const brc_scene_part *a = &split->part[other], *b = &split->part[k];
-                if (a->scene->model.kind != BRC_MODEL_CBM || b->scene->model.kind != BRC_MODEL_CBM || !uses(a, m) ||
+                if (brc_bond_model_of(a->scene->model.kind)->element != BRC_ELEMENT_SPHERE ||
+                    brc_bond_model_of(b->scene->model.kind)->element != BRC_ELEMENT_SPHERE || !uses(a, m) ||
                     !uses(b, m))
                     continue;
                 if (!a->scene->model.polish && !b->scene->model.polish) continue;

@@ -10,6 +10,7 @@ struct brc_simulation;
 struct brc_scope;
 struct brc_force_request;
 struct brc_rings;
+struct brc_buffer;
 struct brc_solve_vectors;
 struct brc_progress;
 
@@ -30,6 +31,19 @@ typedef struct brc_face_scopes {
 
 /* How cells go on where bonds broke (cell_breaks.c). */
 typedef struct brc_model_breaking {
+    brc_status (*create)(struct brc_simulation *s); /* arrays and passes of its own; those of all cells are there */
+    int area_width;                                 /* numbers of a bond's area, which vanish with it */
+    bool wide;                                      /* the forces of ring 3 change too, not only those of ring 2 */
+    bool cohesion;                                  /* faces may open against one (cell_softening.c) */
+    const char *record; /* kernel that records the stresses of elements, for criteria of elements */
+    /* Branches of all half-edges, for the same. */
+    brc_status (*branches)(struct brc_simulation *s, struct brc_buffer **out);
+    /* Of elements that lost bonds; *left: of how many the other bonds, marked now, break in turn. */
+    brc_status (*rebuild)(struct brc_simulation *s, double *left);
+    /* Whether the list of rings is to be placed (rings.h). */
+    bool (*places)(const struct brc_simulation *s, const struct brc_rings *rings);
+    /* The largest ratio of a bond's stress to its limit. */
+    brc_status (*ratio)(struct brc_simulation *s, double *out);
     /* Gradients of ring 0, before surfaces are looked for; NULL: surfaces move with rotations. */
     brc_status (*gradients_around)(struct brc_simulation *s, const struct brc_force_request *r);
     /* Forces around breaks take the place of those of the state. */
@@ -39,6 +53,15 @@ typedef struct brc_model_breaking {
      * [J]. */
     brc_status (*energy_around)(struct brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
 } brc_model_breaking;
+
+/* A material in a body, of which limits are asked: its first element, how many elements the body has and the sum of
+ * their radii; the limit on shear of the solid. */
+typedef struct brc_limit_case {
+    const brc_material *material;
+    int32_t body;
+    int64_t element;
+    double n_elements, radii, shear;
+} brc_limit_case;
 
 /* How a model is solved for equilibrium. */
 typedef struct brc_model_statics {
@@ -70,6 +93,9 @@ typedef struct brc_bond_model {
     brc_surface surface;
     brc_model_effect effect[2]; /* name NULL: no more */
 
+    /* Before arrays are made; NULL: nothing. Then what its bonds have on the device. */
+    brc_status (*create)(struct brc_simulation *s);
+    brc_status (*upload)(struct brc_simulation *s);
     /* The passes of the law, in the scopes of the run and of an evaluation; and of loads on faces (NULL: it has no
      * faces). */
     brc_status (*make_passes)(struct brc_simulation *s, const struct brc_scope *run, const struct brc_scope *request);
@@ -94,7 +120,13 @@ typedef struct brc_bond_model {
     bool conserves;                         /* the law has an energy */
     /* Why a run of this model may have lost its energy balance, appended to text; NULL: nothing of its own. */
     void (*explain_loss)(const struct brc_simulation *s, char *text, size_t size);
-    const brc_model_breaking *breaking; /* NULL: criteria of elements alone */
+    /* Only in scenes with fracture: what is made for it, and after the forces of a step (half_kick: dt/2 where
+     * velocities still want the force at its end, else 0); limits of stress in tension, compression, shear [Pa], NULL:
+     * those of the material. */
+    brc_status (*create_fracture)(struct brc_simulation *s);
+    brc_status (*break_bonds)(struct brc_simulation *s, double half_kick);
+    brc_status (*limits)(struct brc_simulation *s, const brc_limit_case *of, double limit[3]);
+    const brc_model_breaking *breaking; /* of cells; NULL: of spheres */
 } brc_bond_model;
 
 /* Whether equilibrium has rotations as unknowns. */

@@ -14,6 +14,17 @@ brc_status brc_cbm_energies(brc_simulation *s, double *elastic, double *stabilis
 /* ---- statics.c ---- */
 void brc_cbm_bond(const brc_simulation *s, int64_t e, int64_t other, double length, double square, double stiffness[4]);
 
+/* ---- breaks.c ---- */
+/* Limits of the virial stress of one material in one body. */
+brc_status brc_cbm_limits(brc_simulation *s, const brc_limit_case *of, double limit[3]);
+brc_status brc_cbm_create_fracture(brc_simulation *s);
+/* Forces of the full law, with the records that breaks need. */
+brc_status brc_cbm_breaking_force(brc_simulation *s, const brc_force_request *r);
+brc_status brc_cbm_break_bonds(brc_simulation *s, double half_kick);
+
+/* ---- geometry.c ---- */
+brc_status brc_cbm_upload(brc_simulation *s);
+
 /* ---- observe.c: what is read of a state ---- */
 /* Virial stress over an element and its neighbours, and the strain it means. */
 brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);

@@ -22,6 +22,20 @@ brc_status brc_dlsm_gradients_around(brc_simulation *s, const brc_force_request 
 brc_status brc_dlsm_replace_around(brc_simulation *s, const brc_rings *rings);
 brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
 
+/* ---- breaks.c: as brc_model_breaking says ---- */
+brc_status brc_dlsm_breaks_create(brc_simulation *s);
+brc_status brc_dlsm_rebuild(brc_simulation *s, double *left);
+brc_status brc_dlsm_ratio(brc_simulation *s, double *out);
+brc_status brc_dlsm_branches(brc_simulation *s, brc_buffer **out);
+/* The last pass of the full law, but for that after breaks, finds which elements may lose bonds: the next function in
+ * its place, of the rings 0 to `ring` of a list, NULL: of all. */
+bool brc_dlsm_screens(const brc_simulation *s);
+brc_status brc_dlsm_screening_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list,
+                                     int ring);
+
+/* ---- geometry.c ---- */
+brc_status brc_dlsm_upload(brc_simulation *s);
+
 /* ---- observe.c: what is read of a state ---- */
 brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
 brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out);

@@ -3,8 +3,8 @@
 #include "../../cell_softening.h"
 #include "../../closed_faces.h"
 #include "../../contact.h"
-#include "../../rims.h"
 #include "dlsm.h"
+#include "rims.h"
 
 /* The rings that each pass of dlsm goes over: list NULL, all elements. Where most cells are without bonds those with
  * bonds are all that is gone over. */
@@ -114,8 +114,8 @@ brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     const brc_ring_list *list = x.whole_flux ? NULL : x.list;
     if (!r->rings && !brc_pass_is_whole(s, list, x.force))
         BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
-    if (r->finite && !r->homogeneous && !r->rings && brc_cell_breaks_screens(s))
-        BRC_TRY(brc_cell_breaks_forces(s, r, list, x.force));
+    if (r->finite && !r->homogeneous && !r->rings && brc_dlsm_screens(s))
+        BRC_TRY(brc_dlsm_screening_forces(s, r, list, x.force));
     else
         BRC_TRY(brc_pass_over(s, s->pass.force, s->pass.force_listed, list, x.force, r, NULL));
     BRC_TRY(brc_closed_faces_force(s, r, list, x.force));

@@ -1,12 +1,23 @@
 /* Model dlsm: the conservative law (docs/notebook/theory.md T2). */
+#include "../../cell_breaks.h"
 #include "dlsm.h"
+#include "rims.h"
 
 static bool compacts(const brc_scene *scene)
 {
     return scene->model.compaction && scene->model.beta != 0;
 }
 
-static const brc_model_breaking breaking = {.gradients_around = brc_dlsm_gradients_around,
+static const brc_model_breaking breaking = {.create = brc_dlsm_breaks_create,
+                                            .area_width = 3,
+                                            .wide = true,
+                                            .cohesion = true,
+                                            .record = "cells_record",
+                                            .branches = brc_dlsm_branches,
+                                            .rebuild = brc_dlsm_rebuild,
+                                            .places = brc_rims_may_gain,
+                                            .ratio = brc_dlsm_ratio,
+                                            .gradients_around = brc_dlsm_gradients_around,
                                             .replace_around = brc_dlsm_replace_around,
                                             .energy_around = brc_dlsm_energy_around};
 
@@ -28,5 +39,8 @@ const brc_bond_model brc_dlsm = {
     .face_displacement = brc_dlsm_face_displacement,
     .statics = &statics,
     .conserves = true,
+    .upload = brc_dlsm_upload,
+    .create_fracture = brc_cell_breaks_create,
+    .break_bonds = brc_cell_breaks_fail,
     .breaking = &breaking,
 };

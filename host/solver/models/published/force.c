@@ -25,6 +25,11 @@ brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r
     return BRC_OK;
 }
 
+bool brc_published_places(const brc_simulation *s, const brc_rings *rings)
+{
+    return (void)s, (void)rings, false;
+}
+
 brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings)
 {
     return brc_rings_replace(s, rings, 2, 2);

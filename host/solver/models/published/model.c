@@ -1,8 +1,16 @@
 /* Model dlsm-published: the published law, AGH19 (docs/notebook/theory.md T3). */
+#include "../../cell_breaks.h"
 #include "../../guard_cause.h"
 #include "published.h"
 
-static const brc_model_breaking breaking = {.replace_around = brc_published_replace_around,
+static const brc_model_breaking breaking = {.create = brc_published_breaks_create,
+                                            .area_width = 1,
+                                            .record = "cells_record_published",
+                                            .branches = brc_published_branches,
+                                            .rebuild = brc_published_rebuild,
+                                            .places = brc_published_places,
+                                            .ratio = brc_published_ratio,
+                                            .replace_around = brc_published_replace_around,
                                             .energy_around = brc_published_energy_around};
 
 /* Forces balance a total moment only together with rotations, so that displacements alone reach equilibrium to some
@@ -38,5 +46,8 @@ const brc_bond_model brc_published = {
     .face_displacement = brc_published_face_displacement,
     .statics = &statics,
     .explain_loss = explain_loss,
+    .upload = brc_published_upload,
+    .create_fracture = brc_cell_breaks_create,
+    .break_bonds = brc_cell_breaks_fail,
     .breaking = &breaking,
 };

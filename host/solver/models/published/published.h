@@ -15,12 +15,26 @@ brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
 brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r);
 brc_status brc_published_energies(brc_simulation *s, double *elastic, double *stabilisation);
 /* Around breaks: as brc_model_breaking says. */
+bool brc_published_places(const brc_simulation *s, const brc_rings *rings);
 brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings);
 brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
 
 /* ---- statics.c ---- */
 /* Rotations that balance the torques of the displacements just found, into the orientations. */
 brc_status brc_published_settle(brc_simulation *s, struct brc_solve_vectors *v, struct brc_progress *progress);
+
+/* ---- breaks.c: as brc_model_breaking says ---- */
+brc_status brc_published_breaks_create(brc_simulation *s);
+/* Strains of either law, by least squares over the bonds that are left. */
+brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r);
+/* Forces of the full law, with what marks and ratios need. */
+brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r);
+brc_status brc_published_rebuild(brc_simulation *s, double *left);
+brc_status brc_published_ratio(brc_simulation *s, double *out);
+brc_status brc_published_branches(brc_simulation *s, brc_buffer **out);
+
+/* ---- geometry.c ---- */
+brc_status brc_published_upload(brc_simulation *s);
 
 /* ---- observe.c: what is read of a state ---- */
 brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);

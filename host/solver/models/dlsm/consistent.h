@@ -2,10 +2,10 @@
  * angle the displacement gradient is of order 1, and forces of order E S cancel: (k (1 + tau)/q) (u_j - u_i) against
  * the bond part of B. What the rounding of the stored coefficients leaves of them turns with the body's angle, not with
  * the step: a torque of one sign, where the rounding of the arithmetic itself averages out. */
-#ifndef BRC_SOLVER_CONSISTENT_H
-#define BRC_SOLVER_CONSISTENT_H
+#ifndef BRC_SOLVER_MODELS_DLSM_CONSISTENT_H
+#define BRC_SOLVER_MODELS_DLSM_CONSISTENT_H
 
-#include "simulation_internal.h"
+#include "../../simulation_internal.h"
 
 /* Area vector s [m^2] and ratio q = L/S [1/m] of a half-edge of an element as the device holds them, such that q s is
  * the branch to one rounding a component; s differs from the domain's area vector by rounding alone. */

@@ -1,10 +1,10 @@
 /* dlsm: the rim of the rings around broken bonds: fluxes of ring 2 and forces of the rings 2 and 3, found from what
  * their neighbours' stresses and fluxes gained (kernels/rims.cl) in place of an evaluation of their own. The rings
  * within are evaluated as a whole (force.c). */
-#ifndef BRC_SOLVER_RIMS_H
-#define BRC_SOLVER_RIMS_H
+#ifndef BRC_SOLVER_MODELS_DLSM_RIMS_H
+#define BRC_SOLVER_MODELS_DLSM_RIMS_H
 
-#include "rings.h"
+#include "../../rings.h"
 
 /* Energies around breaks are those of elements and of bonds apart: of dlsm, where no face softens; of open faces cells
  * keep half each. */

@@ -1,10 +1,10 @@
 #include "rims.h"
-#include "cell_breaks_internal.h"
-#include "cell_softening.h"
+#include "../../cell_breaks_internal.h"
+#include "../../cell_softening.h"
 
 bool brc_rims_energies_apart(const brc_simulation *s)
 {
-    return brc_is_dlsm(s) && !brc_softening_is_on(s);
+    return !brc_softening_is_on(s);
 }
 
 bool brc_rims_may_gain(const brc_simulation *s, const brc_rings *rings)
@@ -33,7 +33,6 @@ brc_scope brc_scope_of_gains(const brc_simulation *s, const brc_scope *outer)
 brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells)
 {
     brc_cell_breaks *c = s->fracture->cells;
-    if (!brc_is_dlsm(s)) return BRC_OK;
     const brc_scope gains = brc_scope_of_gains(s, cells), request = brc_scope_of_request(&gains);
     const brc_pass_wanted of_request[] = {
         BRC_PASS(&c->rim_stress, "rim_stress", BRC_LISTED " gains"),

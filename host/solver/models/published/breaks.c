@@ -1,8 +1,8 @@
 /* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of
  * kernels/published_breaks.cl. */
-#include "ahead.h"
-#include "cell_breaks_internal.h"
-#include "sym3.h"
+#include "../../cell_breaks_internal.h"
+#include "../../sym3.h"
+#include "published.h"
 #include <math.h>
 
 /* An element whose bonds span less than this share of what they spanned in its weakest direction in the whole body has
@@ -91,21 +91,14 @@ brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request
     return brc_pass_over(s, c->breaking_force, c->breaking_force_listed, list, 2, r, NULL);
 }
 
-brc_status brc_published_breaks_mark(brc_simulation *s, double share, double *n)
+brc_status brc_published_rebuild(brc_simulation *s, double *left)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    BRC_TRY(BRC_RUN(c->check, s->n_groups, {"share", BRC_COEFF(share)}));
-    return brc_ahead_count(s, c->found, s->n_groups, n);
+    *left = 0; /* elements hang on by any bond */
+    return brc_pass_run(c->rebuild, s->layout->n_rows);
 }
 
-brc_status brc_published_breaks_rebuild(brc_simulation *s)
-{
-    const brc_cell_breaks *c = s->fracture->cells;
-    const int32_t n = s->layout->n_rows;
-    return brc_pass_run(c->rebuild, n);
-}
-
-brc_status brc_published_breaks_ratio(brc_simulation *s, double *out)
+brc_status brc_published_ratio(brc_simulation *s, double *out)
 {
     double *value = NULL;
     *out = 0;
@@ -115,4 +108,10 @@ brc_status brc_published_breaks_ratio(brc_simulation *s, double *out)
         *out = fmax(*out, value[e]);
     brc_memory_free(value);
     return status;
+}
+
+brc_status brc_published_branches(brc_simulation *s, brc_buffer **out)
+{
+    *out = s->offset;
+    return BRC_OK;
 }
