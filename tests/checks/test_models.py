@@ -1,0 +1,69 @@
+"""Who names a model: nobody in host/, bench/ and preprocess/ but its folder in host/solver/models/, which knows no other."""
+import re
+import repository
+
+MODELS = "host/solver/models/"
+NAMED = re.compile(r"\bBRC_MODEL_[A-Z_]+\b|\bbrc_(is|wants)_(dlsm|published|cbm|beams)\b")
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"', re.M)
+# Files that still do, with how often at most. The list only shrinks.
+NAMES = {
+    "bench/cube.c": 2,
+    "bench/effects.c": 2,
+    "bench/launches.c": 1,
+    "bench/peers.c": 6,
+    "bench/throughput.c": 2,
+    "host/commands/command_bench.c": 3,
+    "host/commands/setup.c": 1,
+    "host/commands/calibrate/strength_test.c": 1,
+    "host/commands/price/price.c": 4,
+    "host/commands/price/price_trial.c": 6,
+    "host/commands/reproduce/reproduce_drift.c": 1,
+    "host/output/summary.c": 1,
+    "host/output/frames/frame_file.c": 1,
+    "host/output/sensors/sensor_kinds.c": 1,
+    "host/scene/reader_check.c": 2,
+    "host/scene/reader_check_fracture.c": 9,
+    "host/scene/scene.c": 6,
+    "host/scene/scene.h": 3,
+    "host/scene/schema_bodies.c": 3,
+    "host/solver/beam_sample.c": 1,
+}
+# Files outside of models/ that include headers of one, and are its own but for their folder. The list only shrinks.
+INCLUDES = {"host/solver/cell_softening.c", "host/solver/closed_faces.c"}
+
+
+def predicates(files):
+    findings = []
+    for path, text in files.items():
+        if path.startswith(MODELS):
+            continue
+        found = NAMED.findall(repository.code_of(text))
+        if len(found) > NAMES.get(path, 0):
+            findings.append(f"{path}: names a model {len(found)} times, {NAMES.get(path, 0)} at most; ask its descriptor "
+                            f"({MODELS}model.h)")
+    return findings
+
+
+def neighbours(files):
+    """host/solver/models/X includes nothing of models/Y, and nobody else includes either."""
+    findings = []
+    for path, text in files.items():
+        own = path[len(MODELS):].split("/")[0] if path.startswith(MODELS) and path.count("/") > 3 else None
+        for written in INCLUDE.findall(text):
+            inner = re.search(r"(?:^|/)models/(\w+)/", written)
+            beside = re.match(r"\.\./(\w+)/", written) if own else None
+            other = inner.group(1) if inner else beside.group(1) if beside else None
+            if other and other != own and path not in INCLUDES:
+                findings.append(f"{path}: includes {written}, which is inside of model {other}")
+    return findings
+
+
+sources = repository.read(r"^(host|bench|preprocess)/.*\.(c|h|cc|def)$")
+repository.finish([
+    repository.report("predicates", predicates, sources,
+                      {"an enum": {"host/solver/a.c": "if (kind == BRC_MODEL_CBM) f();\n"},
+                       "a function": {"host/solver/a.c": "if (brc_is_dlsm(s)) f();\n"}}),
+    repository.report("neighbours", neighbours, sources,
+                      {"beside": {MODELS + "dlsm/a.c": '#include "../cbm/cbm.h"\n'},
+                       "from outside": {"host/solver/a.c": '#include "models/dlsm/dlsm.h"\n'}}),
+])
