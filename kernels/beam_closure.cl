@@ -10,7 +10,7 @@
 #define LEAN 7
 #define LEAN_ALONG 3
 
-LAW int closure_any(GLOBAL const int *restrict bears, brc_size entry)
+LAW int closure_any(OWN(int) bears, brc_size entry)
 {
     int any = 0;
     for (int l = 0; l < W; ++l) any |= bears[entry + (brc_size)l];
@@ -27,11 +27,9 @@ typedef struct {
     lane_quat q_j;
     beam_lean lean;
 } closure_bond;
-LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, GLOBAL const int *restrict other,
-                                 GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
-                                 GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                 coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
-                                 GLOBAL const coeff *restrict lean)
+LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, OWN(int) other, OWN(int) bears, OWN(coeff) branch,
+                                 GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend,
+                                 coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
 {
     closure_bond b;
     const lane_int j = int_block(other, slot, lane0), on = int_block(bears, slot, lane0);
@@ -67,11 +65,9 @@ typedef struct {
     lane_sym3 virial; /* its parts off the diagonal twice, cbm_virial_of */
     lane energy;
 } closure_sum;
-LAW closure_sum closure_group(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
-                              GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
-                              GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                              coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
-                              GLOBAL const coeff *restrict lean)
+LAW closure_sum closure_group(int group, OWN(int) row_start, OWN(int) other, OWN(int) bears, OWN(coeff) branch,
+                              GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend,
+                              coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
     const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
@@ -90,20 +86,17 @@ LAW closure_sum closure_group(int group, GLOBAL const int *restrict row_start, G
     return sum;
 }
 
-LAW void closure_add(GLOBAL state *restrict to, int e, coeff x, coeff y, coeff z)
+LAW void closure_add(UPDATE(state) to, int e, coeff x, coeff y, coeff z)
 {
     to[(brc_size)e * 3] += (state)x, to[(brc_size)e * 3 + 1] += (state)y, to[(brc_size)e * 3 + 2] += (state)z;
 }
 
 /* After fracture_force and beam_soft_force: forces, torques and records with what broken beams bear. */
-KERNEL void closure_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
-                          GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
-                          GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                          coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
-                          GLOBAL const coeff *restrict lean, coeff inv_tension, coeff inv_compression, coeff inv_shear,
-                          int drucker_prager, coeff slope, GLOBAL const int *restrict rubs,
-                          GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict record,
-                          GLOBAL coeff *restrict reach)
+KERNEL void closure_force(int n_groups, OWN(int) row_start, OWN(int) other, OWN(int) bears, OWN(coeff) branch,
+                          GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                          GATHER(coeff) beam_of, int leans, OWN(coeff) lean, coeff inv_tension, coeff inv_compression,
+                          coeff inv_shear, int drucker_prager, coeff slope, OWN(int) rubs, UPDATE(state) force,
+                          UPDATE(state) torque, UPDATE(coeff) record, PUT(coeff) reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
@@ -128,12 +121,9 @@ KERNEL void closure_force(int n_groups, GLOBAL const int *restrict row_start, GL
 }
 
 /* After cbm_energy [J] [n], half to each side. */
-KERNEL void closure_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
-                           GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
-                           GLOBAL const coeff *restrict lean, GLOBAL const int *restrict rubs,
-                           GLOBAL state *restrict elastic)
+KERNEL void closure_energy(int n_groups, OWN(int) row_start, OWN(int) other, OWN(int) bears, OWN(coeff) branch,
+                           GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                           GATHER(coeff) beam_of, int leans, OWN(coeff) lean, OWN(int) rubs, UPDATE(state) elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
@@ -148,12 +138,9 @@ KERNEL void closure_energy(int n_groups, GLOBAL const int *restrict row_start, G
 }
 
 /* After cbm_virial [J] [n][6]. */
-KERNEL void closure_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
-                           GLOBAL const int *restrict bears, GLOBAL const coeff *restrict branch,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int leans,
-                           GLOBAL const coeff *restrict lean, GLOBAL const int *restrict rubs,
-                           GLOBAL coeff *restrict virial)
+KERNEL void closure_virial(int n_groups, OWN(int) row_start, OWN(int) other, OWN(int) bears, OWN(coeff) branch,
+                           GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                           GATHER(coeff) beam_of, int leans, OWN(coeff) lean, OWN(int) rubs, UPDATE(coeff) virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
@@ -170,13 +157,10 @@ KERNEL void closure_virial(int n_groups, GLOBAL const int *restrict row_start, G
 /* Between the motion of a step and its forces: pushes along cracks fade as these open (lost [n]: half of what that
  * costs), and beams whose ends stand clear of each other bear no more. Both sides of a beam find the same. gone [n]:
  * beams that do not bear any more; mark: the step, where one is. */
-KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *restrict row_start,
-                         GLOBAL const int *restrict other, GLOBAL int *restrict bears,
-                         GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
-                         GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                         GLOBAL const coeff *restrict beam_of, int leans, GLOBAL coeff *restrict lean,
-                         GLOBAL const int *restrict rubs, GLOBAL int *restrict mark, GLOBAL state *restrict lost,
-                         GLOBAL state *restrict gone)
+KERNEL void closure_move(int n_groups, int step, coeff clear, OWN(int) row_start, OWN(int) other, UPDATE(int) bears,
+                         OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                         coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, UPDATE(coeff) lean, OWN(int) rubs,
+                         PUT(int) mark, UPDATE(state) lost, UPDATE(state) gone)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -212,18 +196,13 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, GLOBAL const int *
  * is lost (closure: 0, of those that softened). What beams that broke at once bear joins the forces again, but for
  * those that an element which failed by compression chose, which bear nothing, and half_kick as in fracture_break;
  * those that softened bore it before. open, crack: of the softening (softens: 1). */
-KERNEL void closure_begin(int n_groups, int step, int closure, int softens, state half_kick,
-                          GLOBAL const int *restrict row_start, GLOBAL const int *restrict other,
-                          GLOBAL const int *restrict twin, GLOBAL int *restrict bears,
-                          GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
-                          GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                          GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict lean,
-                          GLOBAL const int *restrict mark, GLOBAL const int *restrict break_step,
-                          GLOBAL const int *restrict break_mode, GLOBAL const int *restrict open,
-                          GLOBAL const coeff *restrict crack, GLOBAL const state *restrict mass,
-                          GLOBAL const state *restrict inertia, GLOBAL state *restrict force,
-                          GLOBAL state *restrict torque, GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
-                          GLOBAL int *restrict rubs, GLOBAL state *restrict lost, GLOBAL state *restrict gone)
+KERNEL void closure_begin(int n_groups, int step, int closure, int softens, state half_kick, OWN(int) row_start,
+                          OWN(int) other, OWN(int) twin, UPDATE(int) bears, OWN(coeff) branch,
+                          GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                          GATHER(coeff) beam_of, UPDATE(coeff) lean, OWN(int) mark, OWN(int) break_step,
+                          GATHER(int) break_mode, OWN(int) open, OWN(coeff) crack, OWN(state) mass, OWN(state) inertia,
+                          UPDATE(state) force, UPDATE(state) torque, UPDATE(state) velocity, UPDATE(state) spin,
+                          PUT(int) rubs, UPDATE(state) lost, UPDATE(state) gone)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;

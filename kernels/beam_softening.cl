@@ -45,7 +45,7 @@
 
 #define BEAM_NUMBER(entry, what) crack[(((entry) / C) * BEAM_WIDTH + BEAM_##what) * C + (entry) % C]
 
-LAW beam_lean beam_lean_at(GLOBAL const coeff *restrict crack, int slot, int lane0)
+LAW beam_lean beam_lean_at(OWN(coeff) crack, int slot, int lane0)
 {
     return (beam_lean){{lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE, lane0),
                         lane_block(crack, slot, BEAM_WIDTH, BEAM_SIDE + 1, lane0),
@@ -80,7 +80,7 @@ LAW lane beam_cosine(cbm_bond bond)
 }
 
 /* Any lane of a slot: open has one of the two states. */
-LAW int beam_any(GLOBAL const int *restrict open, brc_size entry, int one, int other)
+LAW int beam_any(OWN(int) open, brc_size entry, int one, int other)
 {
     int any = 0;
     for (int l = 0; l < W; ++l) any |= open[entry + (brc_size)l] == one || open[entry + (brc_size)l] == other;
@@ -93,11 +93,9 @@ typedef struct {
     lane_sym3 virial; /* its parts off the diagonal twice, cbm_virial_of */
     lane energy;
 } beam_loss;
-LAW beam_loss beam_group_loss(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                              GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                              GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                              coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
-                              GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack)
+LAW beam_loss beam_group_loss(int group, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                              OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                              coeff bend, coeff twist, GATHER(coeff) beam_of, OWN(int) open, OWN(coeff) crack)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
     const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
@@ -120,20 +118,18 @@ LAW beam_loss beam_group_loss(int group, GLOBAL const int *restrict row_start, G
     return sum;
 }
 
-LAW void beam_take(GLOBAL state *restrict to, int e, coeff x, coeff y, coeff z)
+LAW void beam_take(UPDATE(state) to, int e, coeff x, coeff y, coeff z)
 {
     to[(brc_size)e * 3] -= (state)x, to[(brc_size)e * 3 + 1] -= (state)y, to[(brc_size)e * 3 + 2] -= (state)z;
 }
 
 /* After fracture_force: forces, torques and records of what the beams still carry. */
-KERNEL void beam_soft_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                            coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
-                            coeff inv_tension, coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
-                            GLOBAL const int *restrict active, GLOBAL const int *restrict open,
-                            GLOBAL const coeff *restrict crack, GLOBAL state *restrict force,
-                            GLOBAL state *restrict torque, GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+KERNEL void beam_soft_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                            OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                            coeff bend, coeff twist, GATHER(coeff) beam_of, coeff inv_tension, coeff inv_compression,
+                            coeff inv_shear, int drucker_prager, coeff slope, OWN(int) active, OWN(int) open,
+                            OWN(coeff) crack, UPDATE(state) force, UPDATE(state) torque, UPDATE(coeff) record,
+                            PUT(coeff) reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (active[group]) {
@@ -158,12 +154,10 @@ KERNEL void beam_soft_force(int n_groups, GLOBAL const int *restrict row_start, 
 }
 
 /* After cbm_energy [J] [n], half to each side. */
-KERNEL void beam_soft_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                             coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
-                             GLOBAL const int *restrict active, GLOBAL const int *restrict open,
-                             GLOBAL const coeff *restrict crack, GLOBAL state *restrict elastic)
+KERNEL void beam_soft_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                             OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                             coeff bend, coeff twist, GATHER(coeff) beam_of, OWN(int) active, OWN(int) open,
+                             OWN(coeff) crack, UPDATE(state) elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (active[group]) {
@@ -178,12 +172,10 @@ KERNEL void beam_soft_energy(int n_groups, GLOBAL const int *restrict row_start,
 }
 
 /* After cbm_virial [J] [n][6]. */
-KERNEL void beam_soft_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                             GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                             coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
-                             GLOBAL const int *restrict active, GLOBAL const int *restrict open,
-                             GLOBAL const coeff *restrict crack, GLOBAL coeff *restrict virial)
+KERNEL void beam_soft_virial(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                             OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                             coeff bend, coeff twist, GATHER(coeff) beam_of, OWN(int) active, OWN(int) open,
+                             OWN(coeff) crack, UPDATE(coeff) virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (active[group]) {
@@ -200,8 +192,8 @@ KERNEL void beam_soft_virial(int n_groups, GLOBAL const int *restrict row_start,
 /* One beam after the motion of a step: y: Y [J], k [N/m], cosine of its opening; keeps, faded: beam_fades, and what
  * that costs the push along the crack [J]. The work of the opening is the mean of Y times what D grew by, as velocity
  * Verlet's own work is the mean of the forces at both ends of the step. */
-ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open, brc_size entry, brc_size other,
-                         coeff y, coeff k, coeff cosine, coeff steepest, coeff keeps, coeff faded)
+ROUTINE void beam_follow(SCATTER(coeff) crack, SCATTER(int) open, brc_size entry, brc_size other, coeff y, coeff k,
+                         coeff cosine, coeff steepest, coeff keeps, coeff faded)
 {
     const soft_face face = {BEAM_NUMBER(entry, START), BEAM_NUMBER(entry, ENERGY) * BEAM_NUMBER(entry, TILT),
                             BEAM_NUMBER(entry, EXPONENTIAL) > 0};
@@ -225,13 +217,10 @@ ROUTINE void beam_follow(GLOBAL coeff *restrict crack, GLOBAL int *restrict open
 }
 
 /* Between the motion of a step and its forces. */
-KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, GLOBAL const int *restrict row_start,
-                           GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                           GLOBAL const int *restrict lead, GLOBAL const coeff *restrict branch,
-                           GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
-                           GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                           GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict active,
-                           GLOBAL int *restrict open, GLOBAL coeff *restrict crack)
+KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, OWN(int) row_start, OWN(int) neighbour,
+                           OWN(int) twin, OWN(int) lead, OWN(coeff) branch, OWN(coeff) inv_length,
+                           GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                           GATHER(coeff) beam_of, OWN(int) active, SCATTER(int) open, SCATTER(coeff) crack)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
@@ -267,8 +256,8 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, GLOBAL con
 /* A beam opens where its pull (beam_pull) is above its capacity, and starts to fall there, or at what it carries where
  * that is more. One that its element chose (mode; 0: none) is left to break at once where it holds as much as its
  * opening would take, and where the element fails by compression. */
-ROUTINE int beam_opens(GLOBAL coeff *restrict crack, brc_size entry, coeff y, coeff k, coeff pull, coeff cosine,
-                       coeff steepest, int mode)
+ROUTINE int beam_opens(UPDATE(coeff) crack, brc_size entry, coeff y, coeff k, coeff pull, coeff cosine, coeff steepest,
+                       int mode)
 {
     const coeff tilt = cosine > steepest ? cosine : steepest, energy = BEAM_NUMBER(entry, ENERGY) * tilt,
                 capacity = BEAM_NUMBER(entry, CAPACITY);
@@ -284,7 +273,7 @@ ROUTINE int beam_opens(GLOBAL coeff *restrict crack, brc_size entry, coeff y, co
 }
 
 /* Of an axis in the present body what it was in the undeformed one: a - 2 w v x a + 2 v x (v x a). */
-LAW soft_vector beam_back(GLOBAL const state *restrict orientation, int e, failure_axis a)
+LAW soft_vector beam_back(OWN(state) orientation, int e, failure_axis a)
 {
     GLOBAL const state *turn = orientation + (brc_size)e * 4;
     const coeff w = (coeff)turn[0], x = (coeff)turn[1], y = (coeff)turn[2], z = (coeff)turn[3];
@@ -296,10 +285,9 @@ LAW soft_vector beam_back(GLOBAL const state *restrict orientation, int e, failu
 /* How a crack across the largest principal value of the mean stress of element e (of_e), j (of_j) or both lies to the
  * beam between them, the others along it. Returns what the body stretches across the pushes along the crack, nu / E of
  * them [-]. */
-ROUTINE coeff beam_lay(GLOBAL coeff *restrict crack, brc_size entry, int e, int j, int slot, int of_e, int of_j,
-                       int level, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                       GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict record)
+ROUTINE coeff beam_lay(UPDATE(coeff) crack, brc_size entry, int e, int j, int slot, int of_e, int of_j, int level,
+                       GATHER(int) row_start, GATHER(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
+                       OWN(state) orientation, GATHER(coeff) record)
 {
     const failure_stress own = fracture_mean_of(e, level, row_start, neighbour, record),
                          theirs = fracture_mean_of(j, level, row_start, neighbour, record);
@@ -340,8 +328,8 @@ ROUTINE coeff beam_lay(GLOBAL coeff *restrict crack, brc_size entry, int e, int 
 
 /* Which side of a whole bond looks at it: that with the lower id where its element chose it or has open beams, else the
  * other where that has. */
-LAW int beam_looks(GLOBAL const int *restrict neighbour, GLOBAL const int *restrict lead,
-                   GLOBAL const int *restrict open, GLOBAL const int *restrict touched, int e, brc_size entry, int dies)
+LAW int beam_looks(OWN(int) neighbour, OWN(int) lead, OWN(int) open, GATHER(int) touched, int e, brc_size entry,
+                   int dies)
 {
     if (open[entry] != BEAM_WHOLE || neighbour[entry] == e) return 0;
     return lead[entry] ? dies || touched[e] : !dies && touched[e] && !touched[neighbour[entry]];
@@ -349,16 +337,12 @@ LAW int beam_looks(GLOBAL const int *restrict neighbour, GLOBAL const int *restr
 
 /* After the elements chose: chosen beams open, as far as they can; and whole beams of elements with open ones, at their
  * capacity: what bridges a crack stands between elements whose mean stress no longer sees it. */
-KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, GLOBAL const int *restrict row_start,
-                            GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                            GLOBAL const int *restrict lead, GLOBAL const coeff *restrict branch,
-                            GLOBAL const coeff *restrict inv_length, GLOBAL const state *restrict displacement,
-                            GLOBAL const state *restrict orientation, coeff axial, coeff bend, coeff twist,
-                            GLOBAL const coeff *restrict beam_of, GLOBAL const int *restrict mark,
-                            GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure,
-                            GLOBAL const coeff *restrict record, GLOBAL const int *restrict touched,
-                            GLOBAL int *restrict active, GLOBAL int *restrict open, GLOBAL coeff *restrict crack,
-                            GLOBAL coeff *restrict factor)
+KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, GATHER(int) row_start,
+                            GATHER(int) neighbour, OWN(int) twin, OWN(int) lead, OWN(coeff) branch,
+                            OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                            coeff bend, coeff twist, GATHER(coeff) beam_of, OWN(int) mark, GATHER(int) choice,
+                            GATHER(coeff) measure, GATHER(coeff) record, GATHER(int) touched, SCATTER(int) active,
+                            SCATTER(int) open, SCATTER(coeff) crack, SCATTER(coeff) factor)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
@@ -431,10 +415,8 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
 }
 
 /* Elements with beams that opened are touched; choices of beams that opened are no longer choices. */
-KERNEL void beam_soft_keep(int n_groups, int step, GLOBAL const int *restrict row_start,
-                           GLOBAL const int *restrict neighbour, GLOBAL const int *restrict mark,
-                           GLOBAL const int *restrict active, GLOBAL const int *restrict open,
-                           GLOBAL int *restrict choice, GLOBAL int *restrict touched)
+KERNEL void beam_soft_keep(int n_groups, int step, OWN(int) row_start, OWN(int) neighbour, OWN(int) mark,
+                           OWN(int) active, OWN(int) open, UPDATE(int) choice, PUT(int) touched)
 {
     FOR_EACH_ITEM(group, n_groups) {
         for (int e = group * W; (mark[group] == step || active[group]) && e < (group + 1) * W; ++e) {
@@ -450,13 +432,11 @@ KERNEL void beam_soft_keep(int n_groups, int step, GLOBAL const int *restrict ro
 
 /* Books the step's openings, half to each side, and takes off beams at the end of their cohesion, which carry nothing
  * any more: as fracture_break. */
-KERNEL void beam_soft_end(int n_groups, int level, int step, GLOBAL const int *restrict row_start,
-                          GLOBAL int *restrict neighbour, GLOBAL coeff *restrict inv_length, GLOBAL int *restrict mark,
-                          GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight,
-                          GLOBAL const int *restrict active, GLOBAL int *restrict open, GLOBAL coeff *restrict crack,
-                          GLOBAL int *restrict break_step, GLOBAL int *restrict break_mode,
-                          GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
-                          GLOBAL state *restrict lost, GLOBAL state *restrict broken)
+KERNEL void beam_soft_end(int n_groups, int level, int step, OWN(int) row_start, UPDATE(int) neighbour,
+                          PUT(coeff) inv_length, PUT(int) mark, GATHER(coeff) record, PUT(coeff) weight,
+                          OWN(int) active, UPDATE(int) open, UPDATE(coeff) crack, PUT(int) break_step,
+                          PUT(int) break_mode, PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) lost,
+                          UPDATE(state) broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group);

@@ -3,8 +3,8 @@
  * 1/|branch| [slot][C] (missing: 0). beam_of [n][3]: E S, 2 E I, G J of each element's beams for several materials (a
  * bond is two half beams in series); else the three scalars. Broken bonds are as missing neighbours (fracture.cl). */
 
-LAW cbm_stiffness cbm_stiffness_of(GLOBAL const coeff *restrict beam_of, lane_int own, lane_int j, coeff axial,
-                                   coeff bend, coeff twist)
+LAW cbm_stiffness cbm_stiffness_of(GATHER(coeff) beam_of, lane_int own, lane_int j, coeff axial, coeff bend,
+                                   coeff twist)
 {
 #if BRC_MANY_MATERIALS
     const lane_int at = own * 3, to = j * 3;
@@ -24,8 +24,7 @@ typedef struct {
     lane_mat3 turn; /* its rotation minus identity [-] */
 } cbm_own;
 
-LAW cbm_own cbm_own_of(int group, GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                       int finite)
+LAW cbm_own cbm_own_of(int group, OWN(state) displacement, OWN(state) orientation, int finite)
 {
     const lane_int row = lane_own(group * W);
     const lane_quat q = lane_gather4(orientation, row);
@@ -41,10 +40,9 @@ typedef struct {
 } cbm_bond;
 
 /* The beams of a slot: gathered, and those of the slots to come asked for. Only called with a constant `finite`. */
-LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL const int *restrict neighbour,
-                         GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                         GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                         coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int finite)
+LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, OWN(int) neighbour, OWN(coeff) branch,
+                         OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                         coeff bend, coeff twist, GATHER(coeff) beam_of, int finite)
 {
     const lane_int j = int_block(neighbour, slot, lane0);
     rows_ahead3(branch, slot);
@@ -61,10 +59,9 @@ LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, GLOBAL cons
 }
 
 /* Sums over the beams of a group; only called with a constant `finite`. */
-LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                            coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int finite)
+LAW cbm_end cbm_group_force(int group, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
+                            GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                            GATHER(coeff) beam_of, int finite)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
     const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
@@ -81,11 +78,10 @@ LAW cbm_end cbm_group_force(int group, GLOBAL const int *restrict row_start, GLO
 
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. orientation: unit quaternions (w x y z)
  * [n][4]. */
-KERNEL void cbm_force_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, int finite,
-                           GLOBAL state *restrict force, GLOBAL state *restrict torque)
+KERNEL void cbm_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                           OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                           coeff bend, coeff twist, GATHER(coeff) beam_of, int finite, PUT(state) force,
+                           PUT(state) torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const cbm_end sum = finite ? cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement,
@@ -98,10 +94,9 @@ KERNEL void cbm_force_pass(int n_groups, GLOBAL const int *restrict row_start, G
 }
 
 /* Elastic energy of every element, half of each of its beams [J] [n]. */
-KERNEL void cbm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial,
-                       coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL state *restrict elastic)
+KERNEL void cbm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
+                       GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                       GATHER(coeff) beam_of, PUT(state) elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
@@ -118,10 +113,9 @@ KERNEL void cbm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBA
 
 /* Virial of every element [J] [n][6] xx yy zz yz xz xy (cbm_add_virial, summed over its beams). A stress is that over
  * twice a volume (NAH19 eq. 5). */
-KERNEL void cbm_virial(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                       GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation, coeff axial,
-                       coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of, GLOBAL coeff *restrict virial)
+KERNEL void cbm_virial(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
+                       GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                       GATHER(coeff) beam_of, PUT(coeff) virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];

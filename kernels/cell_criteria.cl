@@ -15,8 +15,7 @@ LAW lane_sym3 cells_cauchy(lane_mat3 gradient, lane_mat3 stress)
 }
 
 /* The record of a group of elements of this stress [Pa]. */
-LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, GLOBAL coeff *restrict record,
-                          GLOBAL coeff *restrict reach)
+LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, UPDATE(coeff) record, PUT(coeff) reach)
 {
     const lane volume = lane_block(record, SLICE_OF(group), RECORD, 6, FIRST_LANE_OF(group));
     const lane_sym3 virial = lane_sym3_scale_shift(volume, stress, LANE_ZERO);
@@ -24,9 +23,8 @@ LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, GLOB
 }
 
 /* Records of dlsm, of H and P as they stand. */
-KERNEL void cells_record(int n_groups, GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
-                         coeff inv_tension, coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
-                         GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+KERNEL void cells_record(int n_groups, OWN(coeff) gradient, OWN(coeff) stress, coeff inv_tension, coeff inv_compression,
+                         coeff inv_shear, int drucker_prager, coeff slope, UPDATE(coeff) record, PUT(coeff) reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
@@ -37,10 +35,9 @@ KERNEL void cells_record(int n_groups, GLOBAL const coeff *restrict gradient, GL
 }
 
 /* Records of dlsm-published, of the strains [n][6] as they stand, in the global frame. */
-KERNEL void cells_record_published(int n_groups, GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one,
-                                   coeff young_one, GLOBAL const coeff *restrict lame_of, coeff inv_tension,
-                                   coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
-                                   GLOBAL coeff *restrict record, GLOBAL coeff *restrict reach)
+KERNEL void cells_record_published(int n_groups, OWN(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                   OWN(coeff) lame_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
+                                   int drucker_prager, coeff slope, UPDATE(coeff) record, PUT(coeff) reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
@@ -53,10 +50,8 @@ KERNEL void cells_record_published(int n_groups, GLOBAL const coeff *restrict st
 }
 
 /* The bonds that elements chose are marked; stress [n]: of the element that chose [Pa]; found [n]: 1 where one did. */
-KERNEL void cells_mark_chosen(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                              GLOBAL const int *restrict choice, GLOBAL const coeff *restrict stress,
-                              GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL int *restrict touched,
-                              GLOBAL state *restrict found)
+KERNEL void cells_mark_chosen(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) choice, OWN(coeff) stress,
+                              PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched, PUT(state) found)
 {
     FOR_EACH_ITEM(e, n) {
         const int chosen = choice[e];
@@ -73,8 +68,7 @@ KERNEL void cells_mark_chosen(int n, GLOBAL const int *restrict row_start, GLOBA
 }
 
 /* Volume of record over each element and its neighbours over unbroken bonds, weight [n], after bonds broke. */
-KERNEL void cells_weigh(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight)
+KERNEL void cells_weigh(int n, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record, PUT(coeff) weight)
 {
     FOR_EACH_ITEM(e, n) { weight[e] = fracture_weight(e, row_start, neighbour, record); }
 }

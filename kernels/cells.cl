@@ -15,12 +15,10 @@
 
 /* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n /
  * W] is 1; cells_check puts it back to 0. */
-LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, coeff k_one,
-                        coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
-                        GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
-                        GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL int *restrict look)
+LAW void cells_force_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
+                        GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau,
+                        GATHER(coeff) modulus, OWN(coeff) gradient, OWN(coeff) stress, OWN(coeff) plane,
+                        OWN(coeff) limit, PUT(state) force, PUT(int) look)
 {
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
     const cell_side side =
@@ -45,28 +43,21 @@ LAW void cells_force_of(members who, GLOBAL const int *restrict neighbour, GLOBA
 #undef LOOK
     }
 }
-KERNEL void cells_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                        GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
-                        GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
-                        GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
-                        GLOBAL const coeff *restrict limit, GLOBAL state *restrict force, GLOBAL int *restrict look)
+KERNEL void cells_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
+                        GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
+                        coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient, OWN(coeff) stress,
+                        OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
 {
     FOR_EACH_ITEM(group, n_groups) {
         cells_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one,
                        one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
     }
 }
-KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict list,
-                               GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                               GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                               GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
-                               GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict gradient,
-                               GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
-                               GLOBAL const coeff *restrict limit, GLOBAL state *restrict force,
-                               GLOBAL int *restrict look)
+KERNEL void cells_force_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                               OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux,
+                               GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus,
+                               OWN(coeff) gradient, OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit,
+                               PUT(state) force, PUT(int) look)
 {
     FOR_EACH_ITEM(item, n_items) {
         cells_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part,
@@ -76,13 +67,10 @@ KERNEL void cells_force_listed(int n_items, int n, GLOBAL const int *restrict li
 
 /* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; found [n_groups]. With
  * share 1 only groups that the force pass told to look at their bonds do. */
-KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
-                        GLOBAL const coeff *restrict plane, GLOBAL int *restrict look,
-                        GLOBAL const coeff *restrict limit, GLOBAL int *restrict mark, GLOBAL coeff *restrict measure,
-                        GLOBAL int *restrict touched, GLOBAL state *restrict found)
+KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
+                        OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
+                        GATHER(coeff) plane, UPDATE(int) look, OWN(coeff) limit, PUT(int) mark, PUT(coeff) measure,
+                        SCATTER(int) touched, PUT(state) found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int first = group * W;
@@ -126,11 +114,9 @@ KERNEL void cells_check(int n_groups, coeff share, GLOBAL const int *restrict ro
 }
 
 /* The largest sigma / limit of each element's bonds [n] [-]. */
-KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                        GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict plane,
-                        GLOBAL const coeff *restrict limit, GLOBAL coeff *restrict out)
+KERNEL void cells_ratio(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
+                        GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) plane,
+                        OWN(coeff) limit, PUT(coeff) out)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -150,9 +136,9 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
                                                 gather_component(plane, j), r, strain, inverse);
             largest = cell_larger(largest, REAL(0.5) * (tau + other) / lane_load(limit, entry));
         }
-#define PUT(l) out[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);
-        LANE_EACH(PUT)
-#undef PUT
+#define PUT_LANE(l) out[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);
+        LANE_EACH(PUT_LANE)
+#undef PUT_LANE
     }
 }
 
@@ -161,14 +147,11 @@ KERNEL void cells_ratio(int n_groups, GLOBAL const int *restrict row_start, GLOB
  * ratio S^(3/2)): shares of the energy that they release, kept in break_energy until cells_share, which leaves it 0.
  * changed [n]: 1 where a bond went. gone [n]: bonds lost so far; broken [n]: bonds that broke so far, those among them
  * whose sides still bear on each other. */
-KERNEL void cells_break(int n_groups, int step, int width, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict twin, GLOBAL int *restrict touched, GLOBAL const int *restrict mark,
-                        GLOBAL const coeff *restrict measure, GLOBAL coeff *restrict alive,
-                        GLOBAL int *restrict neighbour, GLOBAL coeff *restrict area, GLOBAL coeff *restrict ratio,
-                        GLOBAL coeff *restrict limit, GLOBAL int *restrict break_step, GLOBAL int *restrict break_mode,
-                        GLOBAL coeff *restrict break_stress, GLOBAL coeff *restrict break_energy,
-                        GLOBAL state *restrict weight, GLOBAL int *restrict changed, GLOBAL state *restrict gone,
-                        GLOBAL state *restrict broken)
+KERNEL void cells_break(int n_groups, int step, int width, OWN(int) row_start, OWN(int) twin, UPDATE(int) touched,
+                        GATHER(int) mark, GATHER(coeff) measure, UPDATE(coeff) alive, PUT(int) neighbour,
+                        UPDATE(coeff) area, UPDATE(coeff) ratio, PUT(coeff) limit, UPDATE(int) break_step,
+                        PUT(int) break_mode, PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) weight,
+                        PUT(int) changed, UPDATE(state) gone, UPDATE(state) broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -232,7 +215,7 @@ LAW cells_sym cells_inverse(cells_sym a)
                        per * xz,
                        per * xy};
 }
-LAW void cells_put(GLOBAL coeff *restrict block, int e, cells_sym a)
+LAW void cells_put(PUT(coeff) block, int e, cells_sym a)
 {
     const coeff six[6] = {(coeff)a.xx, (coeff)a.yy, (coeff)a.zz, (coeff)a.yz, (coeff)a.xz, (coeff)a.xy};
     for (int c = 0; c < 6; ++c) block[((brc_size)(e / C) * 6 + c) * C + e % C] = six[c];
@@ -266,13 +249,10 @@ LAW coeff cells_stiffness(cells_sym inverse, cells_sym squares, state x, state y
 /* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its
  * neighbours no longer hold marks the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or
  * it has become stiffer than stiffest [n] [1/m^2], which the time step does not bear. found [n_groups]. */
-KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                          GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict limit,
-                          GLOBAL const coeff *restrict inv_volume, GLOBAL const coeff *restrict support,
-                          GLOBAL const coeff *restrict stiffest, GLOBAL int *restrict changed,
-                          GLOBAL coeff *restrict least, GLOBAL coeff *restrict inv_shape, GLOBAL int *restrict mark,
-                          GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
+KERNEL void cells_rebuild(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
+                          OWN(coeff) alive, OWN(coeff) limit, OWN(coeff) inv_volume, OWN(coeff) support,
+                          OWN(coeff) stiffest, UPDATE(int) changed, PUT(coeff) least, PUT(coeff) inv_shape,
+                          PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched, PUT(state) found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(changed, (brc_size)group * W);
@@ -317,10 +297,8 @@ KERNEL void cells_rebuild(int n_groups, GLOBAL const int *restrict row_start, GL
 /* The energy that the bonds of this step release, by their weights: per_weight [J/weight] is that of one side; list
  * [n]: the elements that lost some, whose weights are 0 afterwards, and which are touched no longer. lost [J]: of every
  * element. */
-KERNEL void cells_share(int n, int step, state per_weight, GLOBAL const int *restrict list,
-                        GLOBAL const int *restrict row_start, GLOBAL const int *restrict break_step,
-                        GLOBAL int *restrict touched, GLOBAL state *restrict weight,
-                        GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost)
+KERNEL void cells_share(int n, int step, state per_weight, OWN(int) list, OWN(int) row_start, OWN(int) break_step,
+                        PUT(int) touched, UPDATE(state) weight, UPDATE(coeff) break_energy, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(k, n) {
         const int e = list[k];

@@ -27,31 +27,29 @@
 /* A broken bond points home, and so does its twin: that is the other cell. */
 #define CLOSED_OTHER(entry) neighbour[twin[entry]]
 
-LAW vec3 closed_difference(GLOBAL const state *restrict p, int i, int j)
+LAW vec3 closed_difference(GATHER(state) p, int i, int j)
 {
     GLOBAL const state *a = p + (brc_size)i * 3, *b = p + (brc_size)j * 3;
     return (vec3){(coeff)(b[0] - a[0]), (coeff)(b[1] - a[1]), (coeff)(b[2] - a[2])};
 }
-LAW vec3 closed_row(GLOBAL const coeff *restrict p, brc_size entry)
+LAW vec3 closed_row(OWN(coeff) p, brc_size entry)
 {
     GLOBAL const coeff *q = p + (entry / C) * 3 * C + entry % C;
     return (vec3){q[0], q[C], q[2 * C]};
 }
-LAW void closed_put_row(GLOBAL coeff *restrict p, brc_size entry, vec3 a)
+LAW void closed_put_row(SCATTER(coeff) p, brc_size entry, vec3 a)
 {
     GLOBAL coeff *q = p + (entry / C) * 3 * C + entry % C;
     q[0] = a.x, q[C] = a.y, q[2 * C] = a.z;
 }
 /* Cells that lost all bonds have no A^-1. */
-LAW int closed_is_free(GLOBAL const coeff *restrict inv_shape, int e)
+LAW int closed_is_free(GATHER(coeff) inv_shape, int e)
 {
     GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
     return !(p[0] > 0);
 }
-LAW closed_face closed_find(GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset,
-                            GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                            GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict overlap, int e, int j,
-                            brc_size entry)
+LAW closed_face closed_find(GATHER(state) place, OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement,
+                            GATHER(coeff) gradient, OWN(coeff) overlap, int e, int j, brc_size entry)
 {
     closed_face f = closed_face_of(closed_difference(place, e, j), closed_row(offset, entry),
                                    closed_difference(displacement, e, j), mat3_load(gradient, e),
@@ -61,12 +59,9 @@ LAW closed_face closed_find(GLOBAL const state *restrict place, GLOBAL const coe
 }
 
 /* Before bonds of touched elements break: marked ones that never broke are faces that may close. */
-KERNEL void closed_keep(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const int *restrict twin, GLOBAL const int *restrict touched,
-                        GLOBAL const int *restrict mark, GLOBAL const coeff *restrict alive,
-                        GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau,
-                        GLOBAL const coeff *restrict modulus, GLOBAL int *restrict closed,
-                        GLOBAL coeff *restrict spring)
+KERNEL void closed_keep(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(int) touched,
+                        GATHER(int) mark, OWN(coeff) alive, OWN(coeff) ratio, coeff k_one, coeff one_plus_tau,
+                        GATHER(coeff) modulus, PUT(int) closed, PUT(coeff) spring)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -88,10 +83,8 @@ KERNEL void closed_keep(int n_groups, GLOBAL const int *restrict row_start, GLOB
 }
 
 /* After bonds broke: whose faces they concern. */
-KERNEL void closed_look(int n_groups, int moment, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                        GLOBAL const int *restrict touched, GLOBAL const int *restrict closed,
-                        GLOBAL int *restrict look)
+KERNEL void closed_look(int n_groups, int moment, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin,
+                        OWN(int) touched, OWN(int) closed, SCATTER(int) look)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -110,14 +103,11 @@ KERNEL void closed_look(int n_groups, int moment, GLOBAL const int *restrict row
  * all: whether due or not. clear: of the length of the bond [-]; what a pressed face holds when it is let go is lost to
  * friction. friction [-]; dt of the step [s]. */
 KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, state dt,
-                          GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                          GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
-                          GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape,
-                          GLOBAL const state *restrict displacement, GLOBAL const state *restrict velocity,
-                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring,
-                          GLOBAL const coeff *restrict overlap, GLOBAL int *restrict closed,
-                          GLOBAL coeff *restrict slide, GLOBAL int *restrict next, GLOBAL int *restrict presses,
-                          GLOBAL state *restrict rubbed)
+                          OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin, GATHER(state) place,
+                          OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement,
+                          GATHER(state) velocity, GATHER(coeff) gradient, OWN(coeff) spring, OWN(coeff) overlap,
+                          SCATTER(int) closed, SCATTER(coeff) slide, UPDATE(int) next, SCATTER(int) presses,
+                          UPDATE(state) rubbed)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int until = moves ? moment : moment + 1; /* of a state that a step has left, the same faces */
@@ -185,13 +175,10 @@ LAW vec3 closed_kept(vec3 held, coeff along, coeff friction)
 
 /* What the pressed faces of one element add to it; returns whether any is pressed. broke: bonds did, so faces may be
  * new, or of a cell that has come off. */
-LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                   GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
-                   GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape,
-                   GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                   GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed,
-                   GLOBAL coeff *restrict slide, coeff friction, int broke, GLOBAL const int *restrict touched,
-                   coeff *sum, state *energy)
+LAW int closed_sum(int e, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin, GATHER(state) place,
+                   OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement, GATHER(coeff) gradient,
+                   OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed, UPDATE(coeff) slide, coeff friction,
+                   int broke, GATHER(int) touched, coeff *sum, state *energy)
 {
     mat3 q = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     vec3 push = {0, 0, 0};
@@ -239,13 +226,10 @@ LAW int closed_sum(int e, GLOBAL const int *restrict row_start, GLOBAL const int
 }
 
 /* Loads of the elements that closed_follow found pressed. */
-KERNEL void closed_press(int n_groups, coeff friction, GLOBAL const int *restrict row_start,
-                         GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                         GLOBAL const state *restrict place, GLOBAL const coeff *restrict offset,
-                         GLOBAL const coeff *restrict inv_shape, GLOBAL const state *restrict displacement,
-                         GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict spring,
-                         GLOBAL coeff *restrict overlap, GLOBAL int *restrict closed, GLOBAL coeff *restrict slide,
-                         GLOBAL const int *restrict presses, GLOBAL coeff *restrict load, GLOBAL state *restrict held)
+KERNEL void closed_press(int n_groups, coeff friction, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin,
+                         GATHER(state) place, OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement,
+                         GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed,
+                         UPDATE(coeff) slide, GATHER(int) presses, PUT(coeff) load, PUT(state) held)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(presses, (brc_size)group * W);
@@ -262,8 +246,8 @@ KERNEL void closed_press(int n_groups, coeff friction, GLOBAL const int *restric
 }
 
 /* Elements that a work-item goes over: one of a list, or a group of which some are pressed. */
-LAW int closed_begin(int item, int listed, GLOBAL const int *restrict list) { return listed ? list[item] : item * W; }
-LAW int closed_end(int item, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict presses)
+LAW int closed_begin(int item, int listed, OWN(int) list) { return listed ? list[item] : item * W; }
+LAW int closed_end(int item, int listed, OWN(int) list, OWN(int) presses)
 {
     if (listed) return list[item] + 1;
     const lane_int some = int_load(presses, (brc_size)item * W);
@@ -272,9 +256,8 @@ LAW int closed_end(int item, int listed, GLOBAL const int *restrict list, GLOBAL
 
 /* Of all groups, or of the n elements of a list: loads go into B. fluxes above 0: and into what B gained, whose records
  * begin there (rims.cl). */
-KERNEL void closed_flux(int n, int listed, GLOBAL const int *restrict list, int fluxes,
-                        GLOBAL const int *restrict level, GLOBAL const int *restrict presses,
-                        GLOBAL const coeff *restrict load, GLOBAL coeff *restrict flux, GLOBAL coeff *restrict gain)
+KERNEL void closed_flux(int n, int listed, OWN(int) list, int fluxes, OWN(int) level, OWN(int) presses, OWN(coeff) load,
+                        UPDATE(coeff) flux, SCATTER(coeff) gain)
 {
     FOR_EACH_ITEM(item, n) {
         for (int e = closed_begin(item, listed, list); e < closed_end(item, listed, list, presses); ++e) {
@@ -288,8 +271,7 @@ KERNEL void closed_flux(int n, int listed, GLOBAL const int *restrict list, int 
 }
 
 /* And the forces of their faces. */
-KERNEL void closed_force(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict presses,
-                         GLOBAL const coeff *restrict load, GLOBAL state *restrict force)
+KERNEL void closed_force(int n, int listed, OWN(int) list, OWN(int) presses, OWN(coeff) load, UPDATE(state) force)
 {
     FOR_EACH_ITEM(item, n) {
         for (int e = closed_begin(item, listed, list); e < closed_end(item, listed, list, presses); ++e)
@@ -299,8 +281,7 @@ KERNEL void closed_force(int n, int listed, GLOBAL const int *restrict list, GLO
 }
 
 /* What pressed faces hold [J], in out [n]. */
-KERNEL void closed_energy(int n, GLOBAL const int *restrict presses, GLOBAL const state *restrict held,
-                          GLOBAL state *restrict out)
+KERNEL void closed_energy(int n, OWN(int) presses, OWN(state) held, PUT(state) out)
 {
     FOR_EACH_ITEM(e, n) { out[e] = presses[e] ? held[e] : STATE(0); }
 }
@@ -309,15 +290,12 @@ KERNEL void closed_energy(int n, GLOBAL const int *restrict presses, GLOBAL cons
 
 /* Loads of the elements that the breaks concern, with their new H; gain [n][12]: what these gained. All their faces are
  * looked at in the next step. */
-KERNEL void closed_again(int n_groups, int moment, coeff friction, GLOBAL const int *restrict touched,
-                         GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                         GLOBAL const int *restrict twin, GLOBAL const state *restrict place,
-                         GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict inv_shape,
-                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                         GLOBAL const coeff *restrict spring, GLOBAL coeff *restrict overlap,
-                         GLOBAL int *restrict closed, GLOBAL coeff *restrict slide, GLOBAL const int *restrict look,
-                         GLOBAL int *restrict near, GLOBAL int *restrict next, GLOBAL int *restrict presses,
-                         GLOBAL coeff *restrict load, GLOBAL state *restrict held, GLOBAL coeff *restrict gain)
+KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) touched, OWN(int) row_start,
+                         GATHER(int) neighbour, OWN(int) twin, GATHER(state) place, OWN(coeff) offset,
+                         GATHER(coeff) inv_shape, GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) spring,
+                         UPDATE(coeff) overlap, UPDATE(int) closed, UPDATE(coeff) slide, OWN(int) look,
+                         SCATTER(int) near, PUT(int) next, UPDATE(int) presses, UPDATE(coeff) load, PUT(state) held,
+                         PUT(coeff) gain)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int fresh =
@@ -347,11 +325,9 @@ KERNEL void closed_again(int n_groups, int moment, coeff friction, GLOBAL const 
 
 /* Forces gain what the loads of their elements and of those around them gained, and velocities half_kick over mass
  * times what forces lose (ring_take). */
-KERNEL void closed_gain(int n_groups, int moment, state half_kick, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const int *restrict look, GLOBAL const int *restrict near,
-                        GLOBAL const coeff *restrict gain, GLOBAL const state *restrict mass,
-                        GLOBAL state *restrict force, GLOBAL state *restrict velocity)
+KERNEL void closed_gain(int n_groups, int moment, state half_kick, OWN(int) row_start, OWN(int) neighbour,
+                        OWN(coeff) area, GATHER(int) look, OWN(int) near, GATHER(coeff) gain, OWN(state) mass,
+                        UPDATE(state) force, UPDATE(state) velocity)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int fresh = ~LANE_ABOVE(moment, int_load(near, (brc_size)group * W));

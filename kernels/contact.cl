@@ -11,13 +11,13 @@
 
 #define CONTACT_RESULT 8
 
-LAW contact_law contact_law_of(GLOBAL const state *restrict law, int n_materials, int i, int j)
+LAW contact_law contact_law_of(GATHER(state) law, int n_materials, int i, int j)
 {
     GLOBAL const state *restrict p = law + ((brc_size)i * (brc_size)n_materials + (brc_size)j) * 6;
     return (contact_law){p[0], p[1], p[2], p[3], p[4], p[5]};
 }
 /* What a pair that does not touch leaves behind: nothing but its overlap, from which the next step takes the rate. */
-LAW void contact_apart(GLOBAL state *restrict history, state overlap, int face)
+LAW void contact_apart(UPDATE(state) history, state overlap, int face)
 {
     if (!(history[14] > 0) || history[12] > 0)
         for (int c = 0; c < CONTACT_HISTORY; ++c) history[c] = 0;
@@ -64,19 +64,13 @@ LAW contact_meeting contact_of_foot(convex_foot foot, svec3 branch, state ri, st
  * remembered. Others than elements: number n + piece of a striker, as in contact_cells.cl; piece_radius: of pieces that
  * are spheres [m]. */
 KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_linear, int n_materials, state middle_x,
-                            state middle_y, state middle_z, GLOBAL const int *restrict todo,
-                            GLOBAL const int *restrict ends, GLOBAL const state *restrict place,
-                            GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                            GLOBAL const state *restrict reach, GLOBAL const state *restrict corner,
-                            GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
-                            GLOBAL const int *restrict loop, GLOBAL const state *restrict radius,
-                            GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
-                            GLOBAL const int *restrict id, GLOBAL const state *restrict mass,
-                            GLOBAL const int *restrict material, GLOBAL const int *restrict body,
-                            GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
-                            GLOBAL const state *restrict piece_radius, GLOBAL const state *restrict striker_pose,
-                            GLOBAL const state *restrict law, GLOBAL state *restrict history,
-                            GLOBAL int *restrict touch, GLOBAL state *restrict result)
+                            state middle_y, state middle_z, OWN(int) todo, OWN(int) ends, GATHER(state) place,
+                            GATHER(state) displacement, GATHER(state) orientation, GATHER(state) reach,
+                            GATHER(state) corner, GATHER(state) plane, GATHER(int) loop_start, GATHER(int) loop,
+                            GATHER(state) radius, GATHER(int) corner_start, GATHER(int) face_start, GATHER(int) id,
+                            GATHER(state) mass, GATHER(int) material, GATHER(int) body, GATHER(int) piece_striker,
+                            GATHER(int) piece_kind, GATHER(state) piece_radius, GATHER(state) striker_pose,
+                            GATHER(state) law, UPDATE(state) history, PUT(int) touch, PUT(state) result)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int p = whole ? item : todo[item];
@@ -167,15 +161,11 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
 /* Elements that turn: force += sign times those of contact, torque likewise; kick: velocities lose kick f / m, spins
  * likewise (a pair that is new in the middle of a step must not act on the step that ended). book 1: what was lost in
  * the step is added up. stored [n] [J]. */
-KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book, GLOBAL const int *restrict busy,
-                                   GLOBAL const int *restrict list, GLOBAL const int *restrict start,
-                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair,
-                                   GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
-                                   GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia,
-                                   GLOBAL state *restrict force, GLOBAL state *restrict torque,
-                                   GLOBAL state *restrict velocity, GLOBAL state *restrict spin,
-                                   GLOBAL state *restrict stored, GLOBAL state *restrict lost_friction,
-                                   GLOBAL state *restrict lost_impact)
+KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book, OWN(int) busy, OWN(int) list,
+                                   OWN(int) start, OWN(int) used, OWN(int) pair, GATHER(int) touch,
+                                   GATHER(state) result, OWN(state) mass, OWN(state) inertia, UPDATE(state) force,
+                                   UPDATE(state) torque, UPDATE(state) velocity, UPDATE(state) spin, PUT(state) stored,
+                                   UPDATE(state) lost_friction, UPDATE(state) lost_impact)
 {
     FOR_EACH_ITEM(item, n_busy) {
         const int k = busy[item], e = list[k];

@@ -9,8 +9,8 @@
 
 /* The moment of pressure (gradient dW/dH), or its torque, and that of a force f at arm (own frame) reach (frame of
  * space). */
-LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, state pressure, convex_map moment,
-                            smat3 map, svec3 f, svec3 own, svec3 reach)
+LAW void contact_put_moment(PUT(state) out, int at, int affine, state pressure, convex_map moment, smat3 map, svec3 f,
+                            svec3 own, svec3 reach)
 {
     if (affine) {
         const smat3 whole = smat3_scale(pressure, smat3_of(convex_reference_moment(moment, convex_map_of(map))));
@@ -24,14 +24,14 @@ LAW void contact_put_moment(GLOBAL state *restrict out, int at, int affine, stat
 /* Two rigid cells between which there is room along a direction: they rest apart, and nothing of them is looked at,
  * until they may have used it up, coming nearer along it or turning. way [n]: how far any point of a rigid cell can
  * have come by turning, in all [m]; turned: that of both. */
-LAW int contact_rests(GLOBAL const state *restrict past, svec3 branch, state turned)
+LAW int contact_rests(OWN(state) past, svec3 branch, state turned)
 {
     return svec3_dot(svec3_load(past, 16), branch) - past[19] - turned > STATE(16) * STATE_ROUNDING * turned;
 }
 /* The wider of the two gaps along the branch from a to b and across the face that stands between (history 15), where
  * there is any to speak of beside rounding. */
-ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, contact_body b, convex_vec branch,
-                                 int face, state turned)
+ROUTINE void contact_lay_to_rest(PUT(state) past, contact_body a, contact_body b, convex_vec branch, int face,
+                                 state turned)
 {
     const state margin = STATE(1e-6) * (a.radius + b.radius);
     state widest = margin;
@@ -58,19 +58,14 @@ ROUTINE void contact_lay_to_rest(GLOBAL state *restrict past, contact_body a, co
  * have jumped where nothing moved: pairs go on from how they meet now, and what surfaces gained or lost by it is the
  * break's. rigid [n], way [n]: contact_rests. */
 KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, int affine, int n_materials,
-                          state middle_x, state middle_y, state middle_z, GLOBAL const int *restrict todo,
-                          GLOBAL const int *restrict ends, GLOBAL const state *restrict place,
-                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                          GLOBAL const state *restrict orientation, GLOBAL const state *restrict corner,
-                          GLOBAL const state *restrict plane, GLOBAL const int *restrict loop_start,
-                          GLOBAL const int *restrict loop, GLOBAL const state *restrict radius,
-                          GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start,
-                          GLOBAL const int *restrict id, GLOBAL const state *restrict size,
-                          GLOBAL const state *restrict mass, GLOBAL const int *restrict material,
-                          GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
-                          GLOBAL const state *restrict striker_pose, GLOBAL const state *restrict law,
-                          GLOBAL const int *restrict rigid, GLOBAL const state *restrict way,
-                          GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
+                          state middle_x, state middle_y, state middle_z, OWN(int) todo, OWN(int) ends,
+                          GATHER(state) place, GATHER(state) displacement, GATHER(coeff) gradient,
+                          GATHER(state) orientation, GATHER(state) corner, GATHER(state) plane, GATHER(int) loop_start,
+                          GATHER(int) loop, GATHER(state) radius, GATHER(int) corner_start, GATHER(int) face_start,
+                          GATHER(int) id, GATHER(state) size, GATHER(state) mass, GATHER(int) material,
+                          GATHER(int) piece_striker, GATHER(int) piece_kind, GATHER(state) striker_pose,
+                          GATHER(state) law, GATHER(int) rigid, GATHER(state) way, UPDATE(state) history,
+                          PUT(int) touch, UPDATE(state) result)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int p = whole ? item : todo[item];
@@ -200,14 +195,10 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
 
 /* dlsm: moments of touching pairs, added to the element's place in held_moment; of rigid elements the torque instead.
  * As contact_gather_turning. */
-KERNEL void contact_gather_moments(int n_busy, int book, GLOBAL const int *restrict busy,
-                                   GLOBAL const int *restrict list, GLOBAL const int *restrict start,
-                                   GLOBAL const int *restrict used, GLOBAL const int *restrict pair,
-                                   GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
-                                   GLOBAL const int *restrict boundary, GLOBAL const int *restrict rigid,
-                                   GLOBAL const coeff *restrict gradient, GLOBAL coeff *restrict held_moment,
-                                   GLOBAL state *restrict turn, GLOBAL state *restrict stored,
-                                   GLOBAL state *restrict lost_friction, GLOBAL state *restrict lost_impact)
+KERNEL void contact_gather_moments(int n_busy, int book, OWN(int) busy, OWN(int) list, OWN(int) start, OWN(int) used,
+                                   OWN(int) pair, GATHER(int) touch, GATHER(state) result, OWN(int) boundary,
+                                   OWN(int) rigid, OWN(coeff) gradient, UPDATE(coeff) held_moment, UPDATE(state) turn,
+                                   PUT(state) stored, UPDATE(state) lost_friction, UPDATE(state) lost_impact)
 {
     FOR_EACH_ITEM(item, n_busy) {
         const int k = busy[item], e = list[k];
@@ -245,10 +236,8 @@ KERNEL void contact_gather_moments(int n_busy, int book, GLOBAL const int *restr
 }
 
 /* dlsm: forces of touching pairs. */
-KERNEL void contact_gather_forces(int n_busy, GLOBAL const int *restrict busy, GLOBAL const int *restrict list,
-                                  GLOBAL const int *restrict start, GLOBAL const int *restrict used,
-                                  GLOBAL const int *restrict pair, GLOBAL const int *restrict touch,
-                                  GLOBAL const state *restrict result, GLOBAL state *restrict force)
+KERNEL void contact_gather_forces(int n_busy, OWN(int) busy, OWN(int) list, OWN(int) start, OWN(int) used,
+                                  OWN(int) pair, GATHER(int) touch, GATHER(state) result, UPDATE(state) force)
 {
     FOR_EACH_ITEM(item, n_busy) {
         const int k = busy[item];
@@ -270,9 +259,8 @@ KERNEL void contact_gather_forces(int n_busy, GLOBAL const int *restrict busy, G
  * load [n_strikers][6]. */
 #define CONTACT_PAIRS 256
 KERNEL void contact_striker_parts(int n_items, int n_blocks, int n_pairs, int n, int stride, int torque_at,
-                                  GLOBAL const int *restrict ends, GLOBAL const int *restrict piece_striker,
-                                  GLOBAL const int *restrict touch, GLOBAL const state *restrict result,
-                                  GLOBAL state *restrict part)
+                                  OWN(int) ends, GATHER(int) piece_striker, OWN(int) touch, OWN(state) result,
+                                  PUT(state) part)
 {
     FOR_EACH_ITEM(k, n_items) {
         const int striker = k / n_blocks, begin = k % n_blocks * CONTACT_PAIRS,
@@ -289,8 +277,7 @@ KERNEL void contact_striker_parts(int n_items, int n_blocks, int n_pairs, int n,
         svec3_store(part, (brc_size)k * 6 + 3, turn);
     }
 }
-KERNEL void contact_striker_load(int n_strikers, int n_blocks, GLOBAL const state *restrict part,
-                                 GLOBAL state *restrict load)
+KERNEL void contact_striker_load(int n_strikers, int n_blocks, OWN(state) part, PUT(state) load)
 {
     FOR_EACH_ITEM(k, n_strikers) {
         state sum[6] = {0, 0, 0, 0, 0, 0};

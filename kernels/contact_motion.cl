@@ -11,7 +11,7 @@
 
 /* Bound of how much a map I + H lengthens anything: the root of the largest row sum of F^T F, 1 for rotations; no less
  * than 1, since the cell may come loose. */
-LAW state contact_stretch(GLOBAL const coeff *restrict gradient, int e)
+LAW state contact_stretch(OWN(coeff) gradient, int e)
 {
     GLOBAL const coeff *restrict h = gradient + (brc_size)e * 9;
     const smat3 f = {STATE(1) + h[0], h[1], h[2], h[3], STATE(1) + h[4], h[5], h[6], h[7], STATE(1) + h[8]};
@@ -24,10 +24,8 @@ LAW state contact_stretch(GLOBAL const coeff *restrict gradient, int e)
 
 /* Present positions, radii and maps of all elements. reach [n]: radius about the element's place in the reference
  * [m]. */
-KERNEL void contact_extent(int n, int pose, GLOBAL const state *restrict place,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                           GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach,
-                           GLOBAL state *restrict built, GLOBAL state *restrict posed)
+KERNEL void contact_extent(int n, int pose, OWN(state) place, OWN(state) displacement, OWN(coeff) gradient,
+                           OWN(state) orientation, OWN(state) reach, PUT(state) built, PUT(state) posed)
 {
     FOR_EACH_ITEM(e, n) {
         for (int c = 0; c < 3; ++c)
@@ -37,7 +35,7 @@ KERNEL void contact_extent(int n, int pose, GLOBAL const state *restrict place,
     }
 }
 
-LAW svec3 contact_way(GLOBAL const state *restrict place, GLOBAL const state *restrict displacement, svec3 was, int e)
+LAW svec3 contact_way(OWN(state) place, OWN(state) displacement, svec3 was, int e)
 {
     return svec3_add(svec3_sub(svec3_load(place, (brc_size)e * 3), was), svec3_load(displacement, (brc_size)e * 3));
 }
@@ -47,10 +45,8 @@ LAW svec3 contact_way(GLOBAL const state *restrict place, GLOBAL const state *re
 #define CONTACT_DRIFT 14
 /* Sums over the exposed elements of each block: their number, way, velocity, acceleration and place when the list was
  * made; place . way, place . velocity, place . place. part [n_blocks][CONTACT_PART]. */
-KERNEL void contact_drift(int n_blocks, int n, GLOBAL const int *restrict exposed, GLOBAL const state *restrict place,
-                          GLOBAL const state *restrict displacement, GLOBAL const state *restrict built,
-                          GLOBAL const state *restrict velocity, GLOBAL const state *restrict force,
-                          GLOBAL const state *restrict mass, GLOBAL state *restrict part)
+KERNEL void contact_drift(int n_blocks, int n, OWN(int) exposed, OWN(state) place, OWN(state) displacement,
+                          OWN(state) built, OWN(state) velocity, OWN(state) force, OWN(state) mass, PUT(state) part)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
@@ -82,8 +78,7 @@ KERNEL void contact_drift(int n_blocks, int n, GLOBAL const int *restrict expose
 }
 /* One work-item: mean way, velocity, acceleration, middle; growth g [-] and its rate [1/s], least squares, none below
  * 0. drift [CONTACT_DRIFT]. n_items: 1. */
-KERNEL void contact_drift_mean(int n_items, int n_blocks, GLOBAL const state *restrict part,
-                               GLOBAL state *restrict drift)
+KERNEL void contact_drift_mean(int n_items, int n_blocks, OWN(state) part, SCATTER(state) drift)
 {
     FOR_EACH_ITEM(k, n_items) {
         state sum[CONTACT_PART];
@@ -112,15 +107,10 @@ KERNEL void contact_drift_mean(int n_items, int n_blocks, GLOBAL const state *re
  * acceleration squared. spin: of elements that stand by their rotation. Points of a cell turn and strain with it: the
  * way of its place and reach times the change of its map; their speeds are taken as twice that of the place where the
  * map follows the neighbours (pose 1). moved [n_blocks][CONTACT_MOVED]. */
-KERNEL void contact_moved(int n_blocks, int n, int pose, GLOBAL const int *restrict exposed,
-                          GLOBAL const int *restrict rigid, GLOBAL const state *restrict place,
-                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                          GLOBAL const state *restrict orientation, GLOBAL const state *restrict reach,
-                          GLOBAL const state *restrict built, GLOBAL const state *restrict posed,
-                          GLOBAL const state *restrict clear, GLOBAL const state *restrict velocity,
-                          GLOBAL const state *restrict spin, GLOBAL const state *restrict force,
-                          GLOBAL const state *restrict mass, GLOBAL const state *restrict drift,
-                          GLOBAL state *restrict moved)
+KERNEL void contact_moved(int n_blocks, int n, int pose, OWN(int) exposed, OWN(int) rigid, OWN(state) place,
+                          OWN(state) displacement, OWN(coeff) gradient, OWN(state) orientation, OWN(state) reach,
+                          OWN(state) built, OWN(state) posed, OWN(state) clear, OWN(state) velocity, OWN(state) spin,
+                          OWN(state) force, OWN(state) mass, GATHER(state) drift, PUT(state) moved)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
@@ -159,8 +149,7 @@ KERNEL void contact_moved(int n_blocks, int n, int pose, GLOBAL const int *restr
 }
 
 /* Of each block the largest radius of an exposed element, in the first of CONTACT_MOVED columns. */
-KERNEL void contact_largest(int n_blocks, int n, GLOBAL const int *restrict exposed, GLOBAL const state *restrict built,
-                            GLOBAL state *restrict moved)
+KERNEL void contact_largest(int n_blocks, int n, OWN(int) exposed, OWN(state) built, PUT(state) moved)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
@@ -175,21 +164,18 @@ KERNEL void contact_largest(int n_blocks, int n, GLOBAL const int *restrict expo
 /* Pieces of strikers: a ball about a centre (x y z, reach), or the half-space behind a plane (unit normal, height;
  * piece_kind 2), in their striker's own frame; where they are now, relative to the middle of the domain: piece
  * [n_pieces][4]. */
-LAW svec3 contact_striker_place(GLOBAL const state *restrict striker_pose, brc_size at, state middle_x, state middle_y,
-                                state middle_z)
+LAW svec3 contact_striker_place(GATHER(state) striker_pose, brc_size at, state middle_x, state middle_y, state middle_z)
 {
     return (svec3){striker_pose[at] - middle_x, striker_pose[at + 1] - middle_y, striker_pose[at + 2] - middle_z};
 }
-LAW svec3 contact_striker_turn(GLOBAL const state *restrict striker_pose, brc_size at, svec3 a)
+LAW svec3 contact_striker_turn(GATHER(state) striker_pose, brc_size at, svec3 a)
 {
     GLOBAL const state *restrict r = striker_pose + at + 3;
     return (svec3){r[0] * a.x + r[1] * a.y + r[2] * a.z, r[3] * a.x + r[4] * a.y + r[5] * a.z,
                    r[6] * a.x + r[7] * a.y + r[8] * a.z};
 }
-KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state middle_z,
-                           GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
-                           GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
-                           GLOBAL state *restrict piece)
+KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state middle_z, OWN(int) piece_striker,
+                           OWN(int) piece_kind, OWN(state) piece_own, GATHER(state) striker_pose, PUT(state) piece)
 {
     FOR_EACH_ITEM(q, n_pieces) {
         const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4;
@@ -207,10 +193,8 @@ KERNEL void contact_pieces(int n_pieces, state middle_x, state middle_y, state m
 /* How far pieces moved since `piece`, and their speed squared, in columns 0 and 1 of CONTACT_MOVED from row `first` on;
  * span: how far from the middle anything may be that meets a plane [m]. */
 KERNEL void contact_pieces_moved(int n_pieces, int first, state middle_x, state middle_y, state middle_z, state span,
-                                 GLOBAL const int *restrict piece_striker, GLOBAL const int *restrict piece_kind,
-                                 GLOBAL const state *restrict piece_own, GLOBAL const state *restrict striker_pose,
-                                 GLOBAL const state *restrict motion, GLOBAL const state *restrict piece,
-                                 GLOBAL state *restrict moved)
+                                 OWN(int) piece_striker, OWN(int) piece_kind, OWN(state) piece_own,
+                                 GATHER(state) striker_pose, GATHER(state) motion, OWN(state) piece, PUT(state) moved)
 {
     FOR_EACH_ITEM(q, n_pieces) {
         const brc_size at = (brc_size)piece_striker[q] * 12, to = (brc_size)q * 4,

@@ -25,10 +25,9 @@ LAW squat contact_quaternion(smat3 r)
 /* Cells without bonds, which are exposed, become rigid: they keep the rotation of their deformation and begin without
  * spin, since a cell's mass is a point. Those whose faces a load holds or pulls (loaded [n]: 1, else 0) do not turn:
  * their H stays 0, by which held faces and tractions act on them. found [n]: rigid ones. */
-KERNEL void contact_detach(int n, GLOBAL const int *restrict exposed, GLOBAL const int *restrict id,
-                           GLOBAL const int *restrict loaded, GLOBAL const int *restrict row_start,
-                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict gradient,
-                           GLOBAL int *restrict rigid, GLOBAL state *restrict turned, GLOBAL state *restrict found)
+KERNEL void contact_detach(int n, OWN(int) exposed, OWN(int) id, OWN(int) loaded, OWN(int) row_start,
+                           OWN(int) neighbour, OWN(coeff) gradient, UPDATE(int) rigid, UPDATE(state) turned,
+                           PUT(state) found)
 {
     FOR_EACH_ITEM(e, n) {
         int bonds = 0;
@@ -47,8 +46,7 @@ KERNEL void contact_detach(int n, GLOBAL const int *restrict exposed, GLOBAL con
 }
 
 /* H of rigid cells: their rotation, so that everything that reads H sees where they are, and no strain. */
-KERNEL void contact_pose(int n, GLOBAL const int *restrict rigid, GLOBAL const state *restrict turned,
-                         GLOBAL coeff *restrict gradient)
+KERNEL void contact_pose(int n, OWN(int) rigid, OWN(state) turned, PUT(coeff) gradient)
 {
     FOR_EACH_ITEM(e, n) {
         if (rigid[e]) {
@@ -61,7 +59,7 @@ KERNEL void contact_pose(int n, GLOBAL const int *restrict rigid, GLOBAL const s
     }
 }
 
-LAW ssym3 ssym3_load(GLOBAL const state *restrict p, int e)
+LAW ssym3 ssym3_load(OWN(state) p, int e)
 {
     GLOBAL const state *restrict q = p + (brc_size)e * 6;
     return (ssym3){q[0], q[1], q[2], q[3], q[4], q[5]};
@@ -96,10 +94,9 @@ LAW state contact_chord(squat from, squat to)
 
 /* momentum += kick torque, then free turning for drift with what extra torque adds (rigid_drift, for W cells side by
  * side; cells that are not rigid take part and keep what they have). */
-KERNEL void contact_turn(int n_groups, state kick, state drift, state extra, GLOBAL const int *restrict rigid,
-                         GLOBAL const state *restrict inertia, GLOBAL const state *restrict torque,
-                         GLOBAL const state *restrict reach, GLOBAL state *restrict momentum,
-                         GLOBAL state *restrict turned, GLOBAL state *restrict way)
+KERNEL void contact_turn(int n_groups, state kick, state drift, state extra, OWN(int) rigid, OWN(state) inertia,
+                         OWN(state) torque, OWN(state) reach, UPDATE(state) momentum, UPDATE(state) turned,
+                         UPDATE(state) way)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const brc_size begin = (brc_size)group * W;
@@ -166,9 +163,8 @@ KERNEL void contact_turn(int n_groups, state kick, state drift, state extra, GLO
 }
 
 /* l.I^-1 l / 2 [J]; 0 of cells that are not rigid. */
-KERNEL void contact_spin_energy(int n, GLOBAL const int *restrict rigid, GLOBAL const state *restrict inertia,
-                                GLOBAL const state *restrict momentum, GLOBAL const state *restrict turned,
-                                GLOBAL state *restrict out)
+KERNEL void contact_spin_energy(int n, OWN(int) rigid, OWN(state) inertia, OWN(state) momentum, OWN(state) turned,
+                                PUT(state) out)
 {
     FOR_EACH_ITEM(e, n) {
         out[e] = 0;

@@ -10,8 +10,7 @@
 
 /* Elements that lost a bond are exposed from then on. fresh [n]: 1 for those that lost one since this was asked last;
  * seen [n]: what they had lost then. */
-KERNEL void contact_expose(int n, GLOBAL const state *restrict broken, GLOBAL int *restrict seen,
-                           GLOBAL int *restrict exposed, GLOBAL int *restrict fresh)
+KERNEL void contact_expose(int n, OWN(state) broken, UPDATE(int) seen, PUT(int) exposed, PUT(int) fresh)
 {
     FOR_EACH_ITEM(e, n) {
         const int lost = (int)broken[e];
@@ -22,13 +21,12 @@ KERNEL void contact_expose(int n, GLOBAL const state *restrict broken, GLOBAL in
 }
 
 /* Groups of elements of which a bond was chosen in this step (fracture.cl). found [n_groups]. */
-KERNEL void contact_marked(int n_groups, int step, GLOBAL const int *restrict mark, GLOBAL state *restrict found)
+KERNEL void contact_marked(int n_groups, int step, OWN(int) mark, PUT(state) found)
 {
     FOR_EACH_ITEM(group, n_groups) { found[group] = mark[group] == step ? STATE(1) : STATE(0); }
 }
 
-KERNEL void contact_list(int n, GLOBAL const int *restrict exposed, GLOBAL const int *restrict slot_of,
-                         GLOBAL int *restrict list)
+KERNEL void contact_list(int n, OWN(int) exposed, OWN(int) slot_of, SCATTER(int) list)
 {
     FOR_EACH_ITEM(e, n) {
         if (exposed[e]) list[slot_of[e]] = e;
@@ -47,7 +45,7 @@ LAW int contact_coordinate(state x, state per_edge)
     const int down = (int)held;
     return (state)down > held ? down - 1 : down;
 }
-LAW contact_cell contact_cell_of(GLOBAL const state *restrict built, int e, state per_edge)
+LAW contact_cell contact_cell_of(GATHER(state) built, int e, state per_edge)
 {
     const contact_cell cell = {contact_coordinate(built[(brc_size)e * 4], per_edge),
                                contact_coordinate(built[(brc_size)e * 4 + 1], per_edge),
@@ -61,8 +59,7 @@ LAW int contact_key(contact_cell cell, int mask)
     return (int)((mixed ^ mixed >> 15) & (unsigned int)mask);
 }
 
-KERNEL void contact_keys(int m, state per_edge, int mask, GLOBAL const int *restrict list,
-                         GLOBAL const state *restrict built, GLOBAL int *restrict key, GLOBAL int *restrict row)
+KERNEL void contact_keys(int m, state per_edge, int mask, OWN(int) list, OWN(state) built, PUT(int) key, PUT(int) row)
 {
     FOR_EACH_ITEM(k, m) {
         key[k] = contact_key(contact_cell_of(built, list[k], per_edge), mask);
@@ -71,8 +68,7 @@ KERNEL void contact_keys(int m, state per_edge, int mask, GLOBAL const int *rest
 }
 
 /* Where each key begins and ends among the sorted ones; keys that none has keep first = last = 0. */
-KERNEL void contact_buckets(int m, GLOBAL const int *restrict key, GLOBAL int *restrict first,
-                            GLOBAL int *restrict last)
+KERNEL void contact_buckets(int m, OWN(int) key, SCATTER(int) first, SCATTER(int) last)
 {
     FOR_EACH_ITEM(k, m) {
         const int own = key[k];
@@ -82,7 +78,7 @@ KERNEL void contact_buckets(int m, GLOBAL const int *restrict key, GLOBAL int *r
 }
 
 /* Balls about two elements that meet when each grows by half the skin. The same from both sides to the last bit. */
-LAW int contact_near(GLOBAL const state *restrict built, int i, int j, state skin)
+LAW int contact_near(GATHER(state) built, int i, int j, state skin)
 {
     GLOBAL const state *restrict a = built + (brc_size)i * 4;
     GLOBAL const state *restrict b = built + (brc_size)j * 4;
@@ -91,8 +87,7 @@ LAW int contact_near(GLOBAL const state *restrict built, int i, int j, state ski
 }
 
 /* Distance of the ball about an element from that of a piece, or from its half-space [m]. */
-LAW state contact_piece_gap(GLOBAL const state *restrict built, int e, GLOBAL const state *restrict piece,
-                            GLOBAL const int *restrict piece_kind, int q)
+LAW state contact_piece_gap(OWN(state) built, int e, GATHER(state) piece, GATHER(int) piece_kind, int q)
 {
     GLOBAL const state *restrict a = built + (brc_size)e * 4;
     GLOBAL const state *restrict b = piece + (brc_size)q * 4;
@@ -111,10 +106,9 @@ LAW state contact_piece_gap(GLOBAL const state *restrict built, int e, GLOBAL co
  * their motion counts from there, the common motion taken off (contact_motion.cl). */
 
 /* The slots that are looked for: again [m], 0 before. whole: all of them. */
-KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask, GLOBAL const int *restrict list,
-                          GLOBAL const int *restrict slot_of, GLOBAL const int *restrict fresh,
-                          GLOBAL const state *restrict built, GLOBAL const int *restrict first,
-                          GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict again)
+KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask, OWN(int) list, GATHER(int) slot_of,
+                          OWN(int) fresh, GATHER(state) built, GATHER(int) first, GATHER(int) last, GATHER(int) row,
+                          SCATTER(int) again)
 {
     FOR_EACH_ITEM(k, m) {
         const int e = list[k];
@@ -132,21 +126,17 @@ KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask
 }
 
 /* Room for the entries that slots keep. */
-KERNEL void contact_kept(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again,
-                         GLOBAL const int *restrict old_slot_of, GLOBAL const int *restrict old_used,
-                         GLOBAL int *restrict count)
+KERNEL void contact_kept(int m, OWN(int) list, OWN(int) again, OWN(int) old_slot_of, GATHER(int) old_used,
+                         PUT(int) count)
 {
     FOR_EACH_ITEM(k, m) {
         if (!again[k]) count[k] = old_used[old_slot_of[list[k]]];
     }
 }
 /* The same entries; owned, any as contact_fill. */
-KERNEL void contact_keep(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict again,
-                         GLOBAL const int *restrict id, GLOBAL const int *restrict old_slot_of,
-                         GLOBAL const int *restrict old_start, GLOBAL const int *restrict old_used,
-                         GLOBAL const int *restrict old_entry, GLOBAL const int *restrict start,
-                         GLOBAL int *restrict entry, GLOBAL int *restrict used, GLOBAL int *restrict owned,
-                         GLOBAL int *restrict any)
+KERNEL void contact_keep(int m, OWN(int) list, OWN(int) again, GATHER(int) id, OWN(int) old_slot_of,
+                         GATHER(int) old_start, GATHER(int) old_used, GATHER(int) old_entry, OWN(int) start,
+                         PUT(int) entry, PUT(int) used, PUT(int) owned, PUT(int) any)
 {
     FOR_EACH_ITEM(k, m) {
         if (!again[k]) {
@@ -166,8 +156,7 @@ KERNEL void contact_keep(int m, GLOBAL const int *restrict list, GLOBAL const in
 
 /* Pairs that a break may have changed: one of the two lost a bond, or is `touched` by what broke (rings.cl). flag
  * [n_pairs]. */
-KERNEL void contact_changed(int n_pairs, int n, GLOBAL const int *restrict ends, GLOBAL const int *restrict fresh,
-                            GLOBAL const int *restrict touched, GLOBAL int *restrict flag)
+KERNEL void contact_changed(int n_pairs, int n, OWN(int) ends, GATHER(int) fresh, GATHER(int) touched, PUT(int) flag)
 {
     FOR_EACH_ITEM(p, n_pairs) {
         const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1];
@@ -175,8 +164,7 @@ KERNEL void contact_changed(int n_pairs, int n, GLOBAL const int *restrict ends,
     }
 }
 /* The elements of these pairs are given the level `to` where they have none (rings.cl). */
-KERNEL void contact_spread(int n_items, int n, int to, GLOBAL const int *restrict todo, GLOBAL const int *restrict ends,
-                           GLOBAL int *level)
+KERNEL void contact_spread(int n_items, int n, int to, OWN(int) todo, OWN(int) ends, GLOBAL int *level)
 {
     FOR_EACH_ITEM(k, n_items) {
         const int i = ends[2 * (brc_size)todo[k]], j = ends[2 * (brc_size)todo[k] + 1];
@@ -186,11 +174,9 @@ KERNEL void contact_spread(int n_items, int n, int to, GLOBAL const int *restric
 }
 
 /* How many others are near the elements in the slots redo [n_redo], bonds not asked. */
-KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int n_pieces,
-                          GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind,
-                          GLOBAL const int *restrict redo, GLOBAL const int *restrict list,
-                          GLOBAL const state *restrict built, GLOBAL const int *restrict first,
-                          GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL int *restrict count)
+KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int n_pieces, GATHER(state) piece,
+                          GATHER(int) piece_kind, OWN(int) redo, OWN(int) list, GATHER(state) built, GATHER(int) first,
+                          GATHER(int) last, GATHER(int) row, PUT(int) count)
 {
     FOR_EACH_ITEM(item, n_redo) {
         const int k = redo[item], e = list[k];
@@ -214,8 +200,8 @@ KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int 
 /* May two elements touch that are near each other? Not while a bond joins them, nor, if they never had one, while both
  * are bonded to a third: those are in touch at an edge or a corner in the reference, and what holds them is the third.
  * Once bonded and broken they may. */
-LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict body, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const int *restrict original)
+LAW int contact_allowed(int i, int j, int within, GATHER(int) body, GATHER(int) row_start, GATHER(int) neighbour,
+                        OWN(int) original)
 {
     int bonded = 0, was = 0, third = 0;
     if (body[i] != body[j]) return 1;
@@ -233,12 +219,9 @@ LAW int contact_allowed(int i, int j, int within, GLOBAL const int *restrict bod
 }
 
 /* Polyhedra and maps of elements, and which are rigid. */
-LAW contact_body contact_body_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane,
-                                 GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
-                                 GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
-                                 GLOBAL const int *restrict face_start, GLOBAL const int *restrict id,
-                                 GLOBAL const int *restrict rigid, GLOBAL const state *restrict built,
-                                 GLOBAL const state *restrict posed, int e)
+LAW contact_body contact_body_of(GATHER(state) corner, GATHER(state) plane, GATHER(int) loop_start, GATHER(int) loop,
+                                 GATHER(state) radius, GATHER(int) corner_start, GATHER(int) face_start, GATHER(int) id,
+                                 GATHER(int) rigid, GATHER(state) built, GATHER(state) posed, int e)
 {
     return (contact_body){convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[e]),
                           convex_map_of(smat3_load(posed, (brc_size)e * 9)), built[(brc_size)e * 4 + 3], rigid[e]};
@@ -247,17 +230,14 @@ LAW contact_body contact_body_of(GLOBAL const state *restrict corner, GLOBAL con
 /* The entries of the elements in the slots redo, sorted by id; owned [m]: pairs in which its id is the lower one; any
  * [m]: whether there are entries. Both sides of a pair ask contact_parted alike, from the lower id. clear [n]:
  * contact_motion.cl. */
-KERNEL void contact_fill(
-    int n_redo, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces,
-    GLOBAL const state *restrict piece, GLOBAL const int *restrict piece_kind, GLOBAL const int *restrict redo,
-    GLOBAL const int *restrict list, GLOBAL const state *restrict built, GLOBAL const state *restrict posed,
-    GLOBAL const int *restrict rigid, GLOBAL const state *restrict corner, GLOBAL const state *restrict plane,
-    GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop, GLOBAL const state *restrict radius,
-    GLOBAL const int *restrict corner_start, GLOBAL const int *restrict face_start, GLOBAL const int *restrict first,
-    GLOBAL const int *restrict last, GLOBAL const int *restrict row, GLOBAL const int *restrict id,
-    GLOBAL const int *restrict body, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-    GLOBAL const int *restrict original, GLOBAL const int *restrict start, GLOBAL int *restrict entry,
-    GLOBAL int *restrict used, GLOBAL int *restrict owned, GLOBAL int *restrict any, GLOBAL state *restrict clear)
+KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces,
+                         GATHER(state) piece, GATHER(int) piece_kind, OWN(int) redo, OWN(int) list, GATHER(state) built,
+                         GATHER(state) posed, GATHER(int) rigid, GATHER(state) corner, GATHER(state) plane,
+                         GATHER(int) loop_start, GATHER(int) loop, GATHER(state) radius, GATHER(int) corner_start,
+                         GATHER(int) face_start, GATHER(int) first, GATHER(int) last, GATHER(int) row, GATHER(int) id,
+                         GATHER(int) body, GATHER(int) row_start, GATHER(int) neighbour, OWN(int) original,
+                         OWN(int) start, UPDATE(int) entry, PUT(int) used, PUT(int) owned, PUT(int) any,
+                         PUT(state) clear)
 {
     FOR_EACH_ITEM(item, n_redo) {
         const int k = redo[item], e = list[k], begin = start[k];
@@ -311,8 +291,7 @@ KERNEL void contact_fill(
 }
 
 /* Slots with entries; at [m + 1]: running sums of any. */
-KERNEL void contact_busy(int m, GLOBAL const int *restrict any, GLOBAL const int *restrict at,
-                         GLOBAL int *restrict busy)
+KERNEL void contact_busy(int m, OWN(int) any, OWN(int) at, SCATTER(int) busy)
 {
     FOR_EACH_ITEM(k, m) {
         if (any[k]) busy[at[k]] = k;
@@ -322,9 +301,8 @@ KERNEL void contact_busy(int m, GLOBAL const int *restrict any, GLOBAL const int
 /* ---- pairs ---- */
 
 /* Number of the pair of row i, the lower id, and row j; -1: not in the list. */
-LAW int contact_pair_of(int i, int j, GLOBAL const int *restrict slot_of, GLOBAL const int *restrict start,
-                        GLOBAL const int *restrict used, GLOBAL const int *restrict entry,
-                        GLOBAL const int *restrict pair)
+LAW int contact_pair_of(int i, int j, GATHER(int) slot_of, GATHER(int) start, GATHER(int) used, GATHER(int) entry,
+                        GATHER(int) pair)
 {
     const int k = slot_of[i];
     if (slot_of[i + 1] == k) return -1; /* not exposed */
@@ -334,10 +312,8 @@ LAW int contact_pair_of(int i, int j, GLOBAL const int *restrict slot_of, GLOBAL
 }
 
 /* Pairs seen from their lower id: numbers in the order of rows and then of ids. pair_start [m + 1]. */
-KERNEL void contact_own_pairs(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict start,
-                              GLOBAL const int *restrict used, GLOBAL const int *restrict entry,
-                              GLOBAL const int *restrict id, GLOBAL const int *restrict pair_start,
-                              GLOBAL int *restrict pair, GLOBAL int *restrict ends)
+KERNEL void contact_own_pairs(int m, OWN(int) list, OWN(int) start, OWN(int) used, OWN(int) entry, GATHER(int) id,
+                              OWN(int) pair_start, PUT(int) pair, SCATTER(int) ends)
 {
     FOR_EACH_ITEM(k, m) {
         const int e = list[k];
@@ -353,10 +329,8 @@ KERNEL void contact_own_pairs(int m, GLOBAL const int *restrict list, GLOBAL con
         }
     }
 }
-KERNEL void contact_other_pairs(int m, GLOBAL const int *restrict list, GLOBAL const int *restrict slot_of,
-                                GLOBAL const int *restrict start, GLOBAL const int *restrict used,
-                                GLOBAL const int *restrict entry, GLOBAL const int *restrict id,
-                                GLOBAL int *restrict pair)
+KERNEL void contact_other_pairs(int m, OWN(int) list, GATHER(int) slot_of, GATHER(int) start, GATHER(int) used,
+                                GATHER(int) entry, GATHER(int) id, SCATTER(int) pair)
 {
     FOR_EACH_ITEM(k, m) {
         const int e = list[k];
@@ -372,8 +346,7 @@ KERNEL void contact_other_pairs(int m, GLOBAL const int *restrict list, GLOBAL c
 }
 
 /* The results of pairs that touch, one after the other: at [n_pairs + 1] running sums of touch. */
-KERNEL void contact_pack(int n_pairs, int stride, GLOBAL const int *restrict touch, GLOBAL const int *restrict at,
-                         GLOBAL const state *restrict result, GLOBAL state *restrict packed)
+KERNEL void contact_pack(int n_pairs, int stride, OWN(int) touch, OWN(int) at, OWN(state) result, SCATTER(state) packed)
 {
     FOR_EACH_ITEM(p, n_pairs) {
         for (int c = 0; touch[p] && c < stride; ++c)
@@ -385,12 +358,10 @@ KERNEL void contact_pack(int n_pairs, int stride, GLOBAL const int *restrict tou
 /* What pairs remember goes over from the lists before, and with a stride above 0 the result of the last evaluation too
  * (contact.cl), as contact_pack left it; new pairs have touched nothing. history [n_pairs][CONTACT_HISTORY], result
  * [n_pairs][stride]. */
-KERNEL void contact_carry(int n_pairs, int had, int stride, GLOBAL const int *restrict ends,
-                          GLOBAL const int *restrict old_slot_of, GLOBAL const int *restrict old_start,
-                          GLOBAL const int *restrict old_used, GLOBAL const int *restrict old_entry,
-                          GLOBAL const int *restrict old_pair, GLOBAL const state *restrict old_history,
-                          GLOBAL const int *restrict packed_at, GLOBAL const state *restrict packed,
-                          GLOBAL state *restrict history, GLOBAL int *restrict touch, GLOBAL state *restrict result)
+KERNEL void contact_carry(int n_pairs, int had, int stride, OWN(int) ends, GATHER(int) old_slot_of,
+                          GATHER(int) old_start, GATHER(int) old_used, GATHER(int) old_entry, GATHER(int) old_pair,
+                          GATHER(state) old_history, GATHER(int) packed_at, GATHER(state) packed, PUT(state) history,
+                          UPDATE(int) touch, PUT(state) result)
 {
     FOR_EACH_ITEM(p, n_pairs) {
         const int before = had ? contact_pair_of(ends[2 * (brc_size)p], ends[2 * (brc_size)p + 1], old_slot_of,

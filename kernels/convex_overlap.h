@@ -136,10 +136,8 @@ LAW state convex_stretch(convex_map m)
 }
 
 /* Shape s of the arrays of all shapes. */
-LAW convex_shape convex_shape_of(GLOBAL const state *restrict corner, GLOBAL const state *restrict plane,
-                                 GLOBAL const int *restrict loop_start, GLOBAL const int *restrict loop,
-                                 GLOBAL const state *restrict radius, GLOBAL const int *restrict corner_start,
-                                 GLOBAL const int *restrict face_start, int s)
+LAW convex_shape convex_shape_of(GATHER(state) corner, GATHER(state) plane, GATHER(int) loop_start, GATHER(int) loop,
+                                 GATHER(state) radius, GATHER(int) corner_start, GATHER(int) face_start, int s)
 {
     const int c = corner_start[s], f = face_start[s];
     return (convex_shape){corner + (brc_size)c * 3, plane + (brc_size)f * 4, loop_start + f, loop,

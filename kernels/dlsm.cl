@@ -4,9 +4,8 @@
  * its elements has a free face; only read in scenes with face loads. */
 
 /* Pass 1: least-squares displacement gradient H [-] [n][9]. area [slot][3][C], inv_shape A^-1 [slice][6][C]. */
-LAW void dlsm_gradient_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                          GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape,
-                          GLOBAL coeff *restrict gradient)
+LAW void dlsm_gradient_of(members who, OWN(int) neighbour, OWN(coeff) area, GATHER(state) displacement,
+                          OWN(coeff) inv_shape, PUT(coeff) gradient)
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
@@ -17,18 +16,15 @@ LAW void dlsm_gradient_of(members who, GLOBAL const int *restrict neighbour, GLO
     }
     members_store9(who, gradient, lane_mat3_mul_sym(a, members_block6(who, inv_shape)));
 }
-KERNEL void dlsm_gradient(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                          GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                          GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
+KERNEL void dlsm_gradient(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
+                          GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
 {
     FOR_EACH_ITEM(group, n_groups) {
         dlsm_gradient_of(members_of_group(group, row_start), neighbour, area, displacement, inv_shape, gradient);
     }
 }
-KERNEL void dlsm_gradient_listed(int n_items, int n, GLOBAL const int *restrict list,
-                                 GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                 GLOBAL const coeff *restrict inv_shape, GLOBAL coeff *restrict gradient)
+KERNEL void dlsm_gradient_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                                 OWN(coeff) area, GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
 {
     FOR_EACH_ITEM(item, n_items) {
         dlsm_gradient_of(members_of_list(item, n, list, row_start), neighbour, area, displacement, inv_shape, gradient);
@@ -36,10 +32,9 @@ KERNEL void dlsm_gradient_listed(int n_items, int n, GLOBAL const int *restrict 
 }
 
 /* G = F - I [-], from H and, where faces are held, from their part [boundary block][9][C] of V G. */
-LAW lane_mat3 dlsm_deformation_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                                  GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
-                                  GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                                  GLOBAL const coeff *restrict held_gradient, int face_loads)
+LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                                  GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
+                                  OWN(coeff) held_gradient, int face_loads)
 {
     const lane_mat3 h = lane_gather9(gradient, who.own);
     lane_mat3 sum = lane_mat3_zero();
@@ -62,36 +57,29 @@ LAW lane_mat3 dlsm_first_piola(lane_mat3 g, lane lambda, lane mu, int finite)
 }
 
 /* Pass 2: first Piola-Kirchhoff stress P [Pa] [n][9]. offset d [slot][3][C]. */
-LAW void dlsm_stress_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
-                        GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                        GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                        GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress)
+LAW void dlsm_stress_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset, GATHER(coeff) gradient,
+                        OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_gradient, int face_loads,
+                        coeff lambda_one, coeff mu_one, OWN(coeff) material, int finite, PUT(coeff) stress)
 {
     const lane_mat3 g =
         dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
     const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
     members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
 }
-KERNEL void dlsm_stress(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                        GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
-                        coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material, int finite,
-                        GLOBAL coeff *restrict stress)
+KERNEL void dlsm_stress(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                        GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_gradient,
+                        int face_loads, coeff lambda_one, coeff mu_one, OWN(coeff) material, int finite,
+                        PUT(coeff) stress)
 {
     FOR_EACH_ITEM(group, n_groups) {
         dlsm_stress_of(members_of_group(group, row_start), neighbour, area, offset, gradient, inv_volume, boundary,
                        held_gradient, face_loads, lambda_one, mu_one, material, finite, stress);
     }
 }
-KERNEL void dlsm_stress_listed(int n_items, int n, GLOBAL const int *restrict list,
-                               GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                               GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                               GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
-                               int face_loads, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material,
-                               int finite, GLOBAL coeff *restrict stress)
+KERNEL void dlsm_stress_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                               OWN(coeff) area, OWN(coeff) offset, GATHER(coeff) gradient, OWN(coeff) inv_volume,
+                               OWN(int) boundary, OWN(coeff) held_gradient, int face_loads, coeff lambda_one,
+                               coeff mu_one, OWN(coeff) material, int finite, PUT(coeff) stress)
 {
     FOR_EACH_ITEM(item, n_items) {
         dlsm_stress_of(members_of_list(item, n, list, row_start), neighbour, area, offset, gradient, inv_volume,
@@ -100,12 +88,10 @@ KERNEL void dlsm_stress_listed(int n_items, int n, GLOBAL const int *restrict li
 }
 
 /* What the bond in one slot adds in pass 3: to the sums of gradients ... */
-LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums sums,
-                                          GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                                          GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                                          GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict modulus,
-                                          GLOBAL const coeff *restrict ell_of, state_vec3 u, lane_mat3 h, lane_mat3 m,
-                                          lane k, coeff ell_one, int finite, int plain)
+LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums sums, OWN(int) neighbour,
+                                          OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
+                                          GATHER(coeff) gradient, GATHER(coeff) modulus, GATHER(coeff) ell_of,
+                                          state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite, int plain)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
@@ -131,9 +117,8 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums 
     return dlsm_flux_add_bond(sums, r, mr, s);
 }
 /* ... and to that of stresses. */
-LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sums, GLOBAL const int *restrict neighbour,
-                                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                                       GLOBAL const coeff *restrict stress, lane_mat3 p)
+LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sums, OWN(int) neighbour, OWN(coeff) area,
+                                       OWN(coeff) offset, GATHER(coeff) stress, lane_mat3 p)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, offset, slot);
@@ -144,13 +129,10 @@ LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sum
 
 /* Bonds of pass 3: those of gradients, and those of stresses in the same loop where rows are read once (SPLIT_LOOPS).
  * Each sum is its own, so that it has the same bits either way. */
-LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict neighbour,
-                                     GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                                     GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                                     GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
-                                     GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
-                                     lane_mat3 h, lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite,
-                                     int plain)
+LAW dlsm_flux_sums dlsm_flux_sums_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                                     OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
+                                     GATHER(coeff) stress, GATHER(coeff) modulus, GATHER(coeff) ell_of, lane_mat3 h,
+                                     lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite, int plain)
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
@@ -165,15 +147,12 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, GLOBAL const int *restrict nei
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
  * held_moment [block][9][C]: what held faces and tractions add to Q. One loop leaves out the terms of ell, 0 for nu >=
  * 0 (one material). Where loops are split, the second holds nothing of the first but what its sums have become. */
-LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                           GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
-                           GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                           GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one,
-                           coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                           GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                           GLOBAL coeff *restrict bond_part)
+LAW lane_mat3 dlsm_flux_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset, OWN(coeff) ratio,
+                           GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
+                           OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment,
+                           int face_loads, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                           OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite,
+                           PUT(coeff) bond_part)
 {
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
     lane_mat3 h = lane_gather9(gradient, who.own), p = SPLIT_LOOPS ? lane_mat3_zero() : lane_gather9(stress, who.own),
@@ -213,16 +192,12 @@ LAW lane_mat3 dlsm_flux_of(members who, GLOBAL const int *restrict neighbour, GL
     return lane_mat3_add(b, lane_mat3_scale(k * one_plus_tau, part));
 #endif
 }
-KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                           GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
-                           GLOBAL const coeff *restrict inv_shape, GLOBAL const coeff *restrict inv_volume,
-                           GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_moment,
+KERNEL void dlsm_flux_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                           OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
+                           OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment,
                            int face_loads, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                           GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
-                           GLOBAL const coeff *restrict ell_of, int finite, GLOBAL coeff *restrict flux,
-                           GLOBAL coeff *restrict bond_part)
+                           OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite,
+                           PUT(coeff) flux, PUT(coeff) bond_part)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
@@ -232,16 +207,12 @@ KERNEL void dlsm_flux_pass(int n_groups, GLOBAL const int *restrict row_start, G
                                     material, modulus, ell_of, finite, bond_part));
     }
 }
-KERNEL void dlsm_flux_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                             GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                             GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
-                             GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                             GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
-                             GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                             GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one,
-                             coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                             GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                             GLOBAL coeff *restrict flux, GLOBAL coeff *restrict bond_part)
+KERNEL void dlsm_flux_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
+                             OWN(coeff) offset, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
+                             GATHER(coeff) stress, OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary,
+                             OWN(coeff) held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
+                             coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
+                             int finite, PUT(coeff) flux, PUT(coeff) bond_part)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
@@ -263,9 +234,8 @@ typedef struct {
     lane ratio;
 } dlsm_pull;
 
-LAW dlsm_end dlsm_end_of(members who, GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                         GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
-                         GLOBAL const coeff *restrict modulus)
+LAW dlsm_end dlsm_end_of(members who, OWN(state) displacement, OWN(coeff) flux, OWN(coeff) bond_part, coeff k_one,
+                         coeff one_plus_tau, OWN(coeff) modulus)
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     const lane_mat3 b = lane_gather9(flux, who.own);
@@ -276,11 +246,9 @@ LAW dlsm_end dlsm_end_of(members who, GLOBAL const state *restrict displacement,
     return (dlsm_end){u, b, b, LANE_ZERO, LANE_ZERO + k_one * one_plus_tau};
 #endif
 }
-LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                           GLOBAL const coeff *restrict bond_part, coeff one_plus_tau,
-                           GLOBAL const coeff *restrict modulus)
+LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
+                           GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff one_plus_tau,
+                           GATHER(coeff) modulus)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
@@ -300,10 +268,9 @@ LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, GLOBAL const int
 }
 
 /* Pass 4: force f [N] [n][3] on every element. */
-LAW void dlsm_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                       GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, coeff k_one,
-                       coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
+LAW void dlsm_force_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
+                       GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau,
+                       GATHER(coeff) modulus, PUT(state) force)
 {
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
@@ -314,22 +281,19 @@ LAW void dlsm_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL
     }
     members_store3(who, force, f);
 }
-KERNEL void dlsm_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, coeff k_one, coeff one_plus_tau,
-                       GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
+KERNEL void dlsm_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
+                       GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
+                       coeff one_plus_tau, GATHER(coeff) modulus, PUT(state) force)
 {
     FOR_EACH_ITEM(group, n_groups) {
         dlsm_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one,
                       one_plus_tau, modulus, force);
     }
 }
-KERNEL void dlsm_force_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                              GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                              GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                              GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, coeff k_one,
-                              coeff one_plus_tau, GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
+KERNEL void dlsm_force_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                              OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux,
+                              GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus,
+                              PUT(state) force)
 {
     FOR_EACH_ITEM(item, n_items) {
         dlsm_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part,
@@ -338,17 +302,14 @@ KERNEL void dlsm_force_listed(int n_items, int n, GLOBAL const int *restrict lis
 }
 
 /* V psi [J] of the elements: of G, ... */
-LAW lane dlsm_elastic_energy(members who, lane_mat3 g, lane lambda, lane mu, int finite,
-                             GLOBAL const coeff *restrict inv_volume)
+LAW lane dlsm_elastic_energy(members who, lane_mat3 g, lane lambda, lane mu, int finite, OWN(coeff) inv_volume)
 {
     return svk_energy(green_strain(g, finite), lambda, mu) / members_number(who, inv_volume);
 }
 /* ... and of H. */
-LAW lane dlsm_elastic_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                         GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
-                         GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                         GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                         GLOBAL const coeff *restrict material, int finite)
+LAW lane dlsm_elastic_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset, GATHER(coeff) gradient,
+                         OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_gradient, int face_loads,
+                         coeff lambda_one, coeff mu_one, OWN(coeff) material, int finite)
 {
     const lane_mat3 g =
         dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
@@ -359,12 +320,10 @@ LAW lane dlsm_elastic_of(members who, GLOBAL const int *restrict neighbour, GLOB
 /* What of the bonds' stabilisation energies counts with the elements [J]: half. Or, around broken bonds, all of it
  * where the neighbour is not touched, half where it is as the element, and nothing where it was so before (touched [n],
  * kernels/cells.cl): each bond of those that are touched once. */
-LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                       GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta,
-                       coeff one_plus_tau, GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
-                       GLOBAL const coeff *restrict ell_of, int finite, int by_touch,
-                       GLOBAL const int *restrict touched)
+LAW lane dlsm_bonds_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
+                       GATHER(coeff) gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                       OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, int by_touch,
+                       GATHER(int) touched)
 {
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
     const lane_mat3 h = lane_gather9(gradient, who.own), m = dlsm_compaction(h, ell, finite);
@@ -387,10 +346,10 @@ LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL
             lane_vec3_add(lane_mat3_mul_vec(m, x), dlsm_compaction_along(h_j, h_j_x, x, ell_j, finite));
         lane counts = LANE_ZERO + REAL(0.5);
         if (by_touch) {
-#define OWN(l) touched[LANE_ITEM(who.own, l)]
+#define OWN_LANE(l) touched[LANE_ITEM(who.own, l)]
 #define OTHER(l) touched[LANE_ITEM(j, l)]
-            const lane_int own = LANE_MAKE(lane_int, OWN), other = LANE_MAKE(lane_int, OTHER);
-#undef OWN
+            const lane_int own = LANE_MAKE(lane_int, OWN_LANE), other = LANE_MAKE(lane_int, OTHER);
+#undef OWN_LANE
 #undef OTHER
             counts = REAL(1) - LANE_DIFFERENT(other, 0) * (REAL(0.5) + REAL(0.5) * LANE_DIFFERENT(other, own));
         }
@@ -400,15 +359,11 @@ LAW lane dlsm_bonds_of(members who, GLOBAL const int *restrict neighbour, GLOBAL
 }
 
 /* Ledger: elastic energy V psi and half of the stabilisation energy of its bonds, of every element [J] [n]. */
-LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                        GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
-                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                        GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                        GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                        GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
-                        GLOBAL const coeff *restrict ell_of, int finite, GLOBAL state *restrict elastic,
-                        GLOBAL state *restrict stabilisation)
+LAW void dlsm_energy_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset, OWN(coeff) ratio,
+                        GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
+                        OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one, coeff k_one,
+                        coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus,
+                        GATHER(coeff) ell_of, int finite, PUT(state) elastic, PUT(state) stabilisation)
 {
     members_store1(who, elastic,
                    dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
@@ -417,15 +372,12 @@ LAW void dlsm_energy_of(members who, GLOBAL const int *restrict neighbour, GLOBA
                    dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta,
                                  one_plus_tau, material, modulus, ell_of, finite, 0, neighbour));
 }
-KERNEL void dlsm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                        GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                        GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                        GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient, int face_loads,
-                        coeff lambda_one, coeff mu_one, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                        GLOBAL const coeff *restrict material, GLOBAL const coeff *restrict modulus,
-                        GLOBAL const coeff *restrict ell_of, int finite, GLOBAL state *restrict elastic,
-                        GLOBAL state *restrict stabilisation)
+KERNEL void dlsm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                        OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) inv_volume,
+                        OWN(int) boundary, OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
+                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material,
+                        GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, PUT(state) elastic,
+                        PUT(state) stabilisation)
 {
     FOR_EACH_ITEM(group, n_groups) {
         dlsm_energy_of(members_of_group(group, row_start), neighbour, area, offset, ratio, displacement, gradient,
@@ -433,16 +385,13 @@ KERNEL void dlsm_energy(int n_groups, GLOBAL const int *restrict row_start, GLOB
                        one_plus_tau, material, modulus, ell_of, finite, elastic, stabilisation);
     }
 }
-KERNEL void dlsm_energy_listed(int n_items, int n, GLOBAL const int *restrict list,
-                               GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                               GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                               GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                               GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                               GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
-                               int face_loads, coeff lambda_one, coeff mu_one, coeff k_one, coeff ell_one, coeff beta,
-                               coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                               GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                               GLOBAL state *restrict elastic, GLOBAL state *restrict stabilisation)
+KERNEL void dlsm_energy_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                               OWN(coeff) area, OWN(coeff) offset, OWN(coeff) ratio, GATHER(state) displacement,
+                               GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
+                               OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one, coeff k_one,
+                               coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material,
+                               GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, PUT(state) elastic,
+                               PUT(state) stabilisation)
 {
     FOR_EACH_ITEM(item, n_items) {
         dlsm_energy_of(members_of_list(item, n, list, row_start), neighbour, area, offset, ratio, displacement,
@@ -452,13 +401,10 @@ KERNEL void dlsm_energy_listed(int n_items, int n, GLOBAL const int *restrict li
 }
 
 /* Around broken bonds: V psi of the elements of a list alone [J] ... */
-KERNEL void dlsm_elastic_listed(int n_items, int n, GLOBAL const int *restrict list,
-                                GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                                GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                                GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
-                                int face_loads, coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict material,
-                                int finite, GLOBAL state *restrict elastic)
+KERNEL void dlsm_elastic_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                                OWN(coeff) area, OWN(coeff) offset, GATHER(coeff) gradient, OWN(coeff) inv_volume,
+                                OWN(int) boundary, OWN(coeff) held_gradient, int face_loads, coeff lambda_one,
+                                coeff mu_one, OWN(coeff) material, int finite, PUT(state) elastic)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
@@ -468,13 +414,11 @@ KERNEL void dlsm_elastic_listed(int n_items, int n, GLOBAL const int *restrict l
     }
 }
 /* ... and the bonds of those that are touched, each once. */
-KERNEL void dlsm_bonds_listed(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                              GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                              GLOBAL const coeff *restrict ratio, GLOBAL const state *restrict displacement,
-                              GLOBAL const coeff *restrict gradient, coeff k_one, coeff ell_one, coeff beta,
-                              coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                              GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                              GLOBAL const int *restrict touched, GLOBAL state *restrict stabilisation)
+KERNEL void dlsm_bonds_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                              OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
+                              coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material,
+                              GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, GATHER(int) touched,
+                              PUT(state) stabilisation)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
@@ -485,11 +429,9 @@ KERNEL void dlsm_bonds_listed(int n_items, int n, GLOBAL const int *restrict lis
 }
 
 /* Output: G = F - I [-] [n][9]. */
-KERNEL void dlsm_deformation(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                             GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                             GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict inv_volume,
-                             GLOBAL const int *restrict boundary, GLOBAL const coeff *restrict held_gradient,
-                             int face_loads, GLOBAL coeff *restrict deformation)
+KERNEL void dlsm_deformation(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                             GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_gradient,
+                             int face_loads, PUT(coeff) deformation)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);

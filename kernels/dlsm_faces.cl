@@ -4,7 +4,7 @@
  * face: area s_f [m^2], arm d_f = C - X_i [m], held 1 or 0 per component, spring kappa_f [N/m], value u_f [m]. */
 
 /* u_f - u_i, the difference taken in state. */
-LAW vec3 held_jump(GLOBAL const state *restrict value, int face, GLOBAL const state *restrict displacement, int e)
+LAW vec3 held_jump(OWN(state) value, int face, OWN(state) displacement, int e)
 {
     return (vec3){(coeff)(value[(brc_size)face * 3] - displacement[(brc_size)e * 3]),
                   (coeff)(value[(brc_size)face * 3 + 1] - displacement[(brc_size)e * 3 + 1]),
@@ -15,9 +15,8 @@ LAW vec3 held_jump(GLOBAL const state *restrict value, int face, GLOBAL const st
 LAW vec3 held_only(vec3 pi, vec3 a) { return (vec3){pi.x * a.x, pi.y * a.y, pi.z * a.z}; }
 
 /* u_f = base + factor direction, for the faces of one load. entry -> face; component flags as in held. */
-KERNEL void held_prescribe(int n, state factor, GLOBAL const int *restrict face, GLOBAL const coeff *restrict component,
-                           GLOBAL const state *restrict base, GLOBAL const state *restrict direction,
-                           GLOBAL state *restrict value)
+KERNEL void held_prescribe(int n, state factor, OWN(int) face, OWN(coeff) component, OWN(state) base,
+                           OWN(state) direction, PUT(state) value)
 {
     FOR_EACH_ITEM(i, n) {
         for (int c = 0; c < 3; ++c)
@@ -33,11 +32,9 @@ LAW vec3 held_residual(vec3 pi, vec3 jump, mat3 grad, vec3 arm)
 }
 
 /* Part of V G: sum r_f (x) s_f, assigned to the element's place. */
-KERNEL void held_gradient_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict place,
-                               GLOBAL const int *restrict face_start, GLOBAL const coeff *restrict area,
-                               GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
-                               GLOBAL const state *restrict value, GLOBAL const state *restrict displacement,
-                               GLOBAL const coeff *restrict gradient, GLOBAL coeff *restrict held_gradient)
+KERNEL void held_gradient_pass(int n, OWN(int) element, OWN(int) place, OWN(int) face_start, OWN(coeff) area,
+                               OWN(coeff) arm, OWN(coeff) held, OWN(state) value, OWN(state) displacement,
+                               OWN(coeff) gradient, PUT(coeff) held_gradient)
 {
     FOR_EACH_ITEM(h, n) {
         const int e = element[h];
@@ -58,12 +55,9 @@ LAW vec3 held_pull(vec3 pi, vec3 residual, mat3 stress, vec3 area, coeff spring)
 }
 
 /* Part of Q: minus sum pull (x) d_f, added to the element's place. */
-KERNEL void held_moment_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict place,
-                             GLOBAL const int *restrict face_start, GLOBAL const coeff *restrict area,
-                             GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
-                             GLOBAL const coeff *restrict spring, GLOBAL const state *restrict value,
-                             GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                             GLOBAL const coeff *restrict stress, GLOBAL coeff *restrict held_moment)
+KERNEL void held_moment_pass(int n, OWN(int) element, OWN(int) place, OWN(int) face_start, OWN(coeff) area,
+                             OWN(coeff) arm, OWN(coeff) held, OWN(coeff) spring, OWN(state) value,
+                             OWN(state) displacement, OWN(coeff) gradient, OWN(coeff) stress, UPDATE(coeff) held_moment)
 {
     FOR_EACH_ITEM(h, n) {
         const int e = element[h];
@@ -81,13 +75,10 @@ KERNEL void held_moment_pass(int n, GLOBAL const int *restrict element, GLOBAL c
 /* f_i += pull, which is also the force of the load on the solid (dW/du_f), kept as reaction [N].
  * book: 0 no more; 1 adds the work of the load since the last booking by the trapezoidal rule [J]; 2 starts booking
  * here. last [n][3], last_reaction [n][3]: u_f and reaction at the last booking. */
-KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict face_start,
-                            GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict arm,
-                            GLOBAL const coeff *restrict held, GLOBAL const coeff *restrict spring,
-                            GLOBAL const state *restrict value, GLOBAL const state *restrict displacement,
-                            GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, int book,
-                            GLOBAL state *restrict force, GLOBAL state *restrict reaction, GLOBAL state *restrict last,
-                            GLOBAL state *restrict last_reaction, GLOBAL state *restrict work)
+KERNEL void held_force_pass(int n, OWN(int) element, OWN(int) face_start, OWN(coeff) area, OWN(coeff) arm,
+                            OWN(coeff) held, OWN(coeff) spring, OWN(state) value, OWN(state) displacement,
+                            OWN(coeff) gradient, OWN(coeff) stress, int book, UPDATE(state) force, PUT(state) reaction,
+                            UPDATE(state) last, UPDATE(state) last_reaction, UPDATE(state) work)
 {
     FOR_EACH_ITEM(h, n) {
         const int e = element[h];
@@ -112,11 +103,9 @@ KERNEL void held_force_pass(int n, GLOBAL const int *restrict element, GLOBAL co
 }
 
 /* Stabilisation energy of held faces, kappa_f |r_f|^2 / 2 [J] [face]. */
-KERNEL void held_energy(int n, GLOBAL const int *restrict element, GLOBAL const int *restrict face_start,
-                        GLOBAL const coeff *restrict arm, GLOBAL const coeff *restrict held,
-                        GLOBAL const coeff *restrict spring, GLOBAL const state *restrict value,
-                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                        GLOBAL state *restrict energy)
+KERNEL void held_energy(int n, OWN(int) element, OWN(int) face_start, OWN(coeff) arm, OWN(coeff) held,
+                        OWN(coeff) spring, OWN(state) value, OWN(state) displacement, OWN(coeff) gradient,
+                        PUT(state) energy)
 {
     FOR_EACH_ITEM(h, n) {
         const int e = element[h];
@@ -131,8 +120,7 @@ KERNEL void held_energy(int n, GLOBAL const int *restrict element, GLOBAL const 
 
 /* Tractions of one load, summed per element: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit
  * factor. */
-KERNEL void traction_moment_pass(int n, coeff factor, GLOBAL const int *restrict place,
-                                 GLOBAL const coeff *restrict moment, GLOBAL coeff *restrict held_moment)
+KERNEL void traction_moment_pass(int n, coeff factor, OWN(int) place, OWN(coeff) moment, UPDATE(coeff) held_moment)
 {
     FOR_EACH_ITEM(i, n) {
         const mat3 m = mat3_load(moment, i);
@@ -143,11 +131,9 @@ KERNEL void traction_moment_pass(int n, coeff factor, GLOBAL const int *restrict
 }
 
 /* f_i += factor total; total.u + moment:H is what the traction works on [J]. book, reach: as book and last above. */
-KERNEL void traction_force_pass(int n, state factor, GLOBAL const int *restrict element,
-                                GLOBAL const coeff *restrict total, GLOBAL const coeff *restrict moment,
-                                GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                                int book, state last_factor, GLOBAL state *restrict force, GLOBAL state *restrict reach,
-                                GLOBAL state *restrict work)
+KERNEL void traction_force_pass(int n, state factor, OWN(int) element, OWN(coeff) total, OWN(coeff) moment,
+                                OWN(state) displacement, OWN(coeff) gradient, int book, state last_factor,
+                                UPDATE(state) force, UPDATE(state) reach, UPDATE(state) work)
 {
     FOR_EACH_ITEM(i, n) {
         const int e = element[i];
@@ -164,9 +150,8 @@ KERNEL void traction_force_pass(int n, state factor, GLOBAL const int *restrict 
 }
 
 /* Sensors: u_f of listed free faces [m]: u_i + H_i (C - X_i). */
-KERNEL void face_displacement(int n, GLOBAL const int *restrict element, GLOBAL const coeff *restrict arm,
-                              GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                              GLOBAL state *restrict out)
+KERNEL void face_displacement(int n, OWN(int) element, OWN(coeff) arm, OWN(state) displacement, OWN(coeff) gradient,
+                              PUT(state) out)
 {
     FOR_EACH_ITEM(i, n) {
         const vec3 reach = mat3_mul_vec(mat3_load(gradient, element[i]), vec3_load(arm, i));

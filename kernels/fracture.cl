@@ -17,8 +17,7 @@
 #define RECORD_OF(row) ((row) / C * (RECORD * C) + (row) % C)
 
 /* A group's sums of x (x) f, and how near to failure they are. */
-LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, GLOBAL coeff *restrict record,
-                             GLOBAL coeff *restrict reach)
+LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, UPDATE(coeff) record, PUT(coeff) reach)
 {
     const brc_size to = (brc_size)SLICE_OF(group) * RECORD * C + (brc_size)FIRST_LANE_OF(group);
     lane_store(record, to, virial.xx);
@@ -35,13 +34,11 @@ LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, G
 }
 
 /* As cbm_force_pass with the full law, and the records. */
-KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict inv_length,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
-                           coeff inv_tension, coeff inv_compression, coeff inv_shear, int drucker_prager, coeff slope,
-                           GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict record,
-                           GLOBAL coeff *restrict reach)
+KERNEL void fracture_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                           OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                           coeff bend, coeff twist, GATHER(coeff) beam_of, coeff inv_tension, coeff inv_compression,
+                           coeff inv_shear, int drucker_prager, coeff slope, PUT(state) force, PUT(state) torque,
+                           UPDATE(coeff) record, PUT(coeff) reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
@@ -67,8 +64,7 @@ KERNEL void fracture_force(int n_groups, GLOBAL const int *restrict row_start, G
 
 /* Mean stress of a group's elements over themselves (level 0) or with their neighbours over unbroken bonds (level
  * 1). */
-LAW lane_sym3 fracture_mean(int group, int level, GLOBAL const int *restrict row_start,
-                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record)
+LAW lane_sym3 fracture_mean(int group, int level, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
     const lane_int own = lane_own(group * W);
@@ -86,9 +82,8 @@ LAW lane_sym3 fracture_mean(int group, int level, GLOBAL const int *restrict row
 }
 
 /* Stress of every element [n][6]; level 0 or 1. */
-KERNEL void fracture_stress(int n_groups, int level, GLOBAL const int *restrict row_start,
-                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record,
-                            GLOBAL coeff *restrict stress)
+KERNEL void fracture_stress(int n_groups, int level, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record,
+                            PUT(coeff) stress)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_sym3 mean = fracture_mean(group, level, row_start, neighbour, record);
@@ -99,8 +94,8 @@ KERNEL void fracture_stress(int n_groups, int level, GLOBAL const int *restrict 
 /* Level 2: the neighbours' neighbours too, each element once. SECOND_SHELL: places of the table that knows who was
  * counted; the host refuses samples with elements that have more members. */
 #define SECOND_SHELL 512
-KERNEL void fracture_stress_second(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                   GLOBAL const coeff *restrict record, GLOBAL coeff *restrict stress)
+KERNEL void fracture_stress_second(int n, GATHER(int) row_start, GATHER(int) neighbour, GATHER(coeff) record,
+                                   PUT(coeff) stress)
 {
     FOR_EACH_ITEM(e, n) {
         int seen[SECOND_SHELL];
@@ -125,21 +120,20 @@ KERNEL void fracture_stress_second(int n, GLOBAL const int *restrict row_start, 
     }
 }
 
-LAW failure_stress fracture_stress_of(GLOBAL const coeff *restrict stress, int e)
+LAW failure_stress fracture_stress_of(OWN(coeff) stress, int e)
 {
     GLOBAL const coeff *s = stress + (brc_size)e * 6;
     return (failure_stress){s[0], s[1], s[2], s[3], s[4], s[5]};
 }
 /* limits [n][3]: tension, compression, shear [Pa]. */
-LAW failure_limits fracture_limits_of(GLOBAL const coeff *restrict limits, int e)
+LAW failure_limits fracture_limits_of(OWN(coeff) limits, int e)
 {
     GLOBAL const coeff *l = limits + (brc_size)e * 3;
     return (failure_limits){l[0], l[1], l[2]};
 }
 
 /* x_j - x_i of a bond now [m]. */
-LAW failure_axis fracture_branch_of(int e, int j, int slot, GLOBAL const coeff *restrict branch,
-                                    GLOBAL const state *restrict displacement)
+LAW failure_axis fracture_branch_of(int e, int j, int slot, OWN(coeff) branch, GATHER(state) displacement)
 {
     GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
     GLOBAL const state *from = displacement + (brc_size)e * 3, *to = displacement + (brc_size)j * 3;
@@ -157,9 +151,8 @@ typedef struct {
  * largest |cos| of all: the element fails when ratio times gain is 1, so a bond of factor f in the direction of failure
  * goes at f times the limit, and one farther off at as much more as its |cos| is smaller. Without factors the nearest
  * bond, and gain is 1. */
-LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, GLOBAL const int *restrict row_start,
-                                   GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                   GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict factor)
+LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, OWN(int) row_start, OWN(int) neighbour,
+                                   OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) factor)
 {
     coeff best = REAL(-1), nearest = REAL(-1);
     int other = -1;
@@ -183,9 +176,8 @@ LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, GL
  * (fracture_pick): bonds with a factor above the ratio cannot, and of the others one that lies nearer to the axis than
  * theirs allow is enough. Most elements that wait with a weak bond across the pull are let off here. Room for rounding
  * as in failure_possible. */
-LAW int fracture_spared(int e, failure_stress s, coeff tension, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict factor)
+LAW int fracture_spared(int e, failure_stress s, coeff tension, OWN(int) row_start, OWN(int) neighbour,
+                        OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) factor)
 {
     const failure_leading lead = failure_leading_of(s);
     const coeff most = REAL(1.001) * lead.first / tension;
@@ -213,12 +205,10 @@ LAW int fracture_spared(int e, failure_stress s, coeff tension, GLOBAL const int
 }
 
 /* An element at a limit chooses a bond; measure: its stress then [Pa]. */
-LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear shear, int weighted,
-                            GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
-                            GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
-                            GLOBAL const coeff *restrict weakest, GLOBAL int *restrict choice,
-                            GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
+LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear shear, int weighted, OWN(int) row_start,
+                            OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) limits,
+                            OWN(coeff) factor, OWN(coeff) weakest, PUT(int) choice, PUT(coeff) measure,
+                            SCATTER(int) mark)
 {
     const failure_limits limit = fracture_limits_of(limits, e);
     const coeff least = weighted ? weakest[e] : REAL(1);
@@ -243,8 +233,8 @@ LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear she
 }
 
 /* fracture_mean of one element, to the last bit. */
-LAW failure_stress fracture_mean_of(int e, int level, GLOBAL const int *restrict row_start,
-                                    GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict record)
+LAW failure_stress fracture_mean_of(int e, int level, GATHER(int) row_start, GATHER(int) neighbour,
+                                    GATHER(coeff) record)
 {
     coeff sum[7];
     for (int c = 0; c < 7; ++c) sum[c] = record[RECORD_OF(e) + c * C];
@@ -260,13 +250,10 @@ LAW failure_stress fracture_mean_of(int e, int level, GLOBAL const int *restrict
 /* Levels 0 and 1: what each element loses. Only elements which the bound lets fail look at stresses: few of a group
  * do. */
 KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager, coeff slope, coeff friction,
-                           int weighted, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
-                           GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict record,
-                           GLOBAL const coeff *restrict reach, GLOBAL const coeff *restrict ease,
-                           GLOBAL const coeff *restrict weight, GLOBAL int *restrict choice,
-                           GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
+                           int weighted, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                           GATHER(state) displacement, OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest,
+                           GATHER(coeff) record, GATHER(coeff) reach, OWN(coeff) ease, OWN(coeff) weight,
+                           PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
@@ -292,11 +279,9 @@ KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager
 
 /* The same from stresses [n][6]. */
 KERNEL void fracture_choose(int n, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
-                            GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
-                            GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
-                            GLOBAL const coeff *restrict weakest, GLOBAL const coeff *restrict stress,
-                            GLOBAL int *restrict choice, GLOBAL coeff *restrict measure, GLOBAL int *restrict mark)
+                            OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement,
+                            OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest, OWN(coeff) stress,
+                            PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
     FOR_EACH_ITEM(e, n) {
         const failure_shear shear = {drucker_prager, slope, friction};
@@ -308,11 +293,9 @@ KERNEL void fracture_choose(int n, int step, int drucker_prager, coeff slope, co
 }
 
 /* How far every element is on its way to failure [n]. */
-KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff friction, int weighted,
-                           GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                           GLOBAL const coeff *restrict branch, GLOBAL const state *restrict displacement,
-                           GLOBAL const coeff *restrict limits, GLOBAL const coeff *restrict factor,
-                           GLOBAL const coeff *restrict stress, GLOBAL coeff *restrict ratio)
+KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff friction, int weighted, OWN(int) row_start,
+                           OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) limits,
+                           OWN(coeff) factor, OWN(coeff) stress, PUT(coeff) ratio)
 {
     FOR_EACH_ITEM(e, n) {
         const failure_shear shear = {drucker_prager, slope, friction};
@@ -331,15 +314,15 @@ KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff frictio
 }
 
 /* The bond of an entry is unbroken and chosen by one of its two elements. */
-LAW int fracture_dies(GLOBAL const int *restrict neighbour, GLOBAL const int *restrict choice, int e, brc_size entry)
+LAW int fracture_dies(OWN(int) neighbour, GATHER(int) choice, int e, brc_size entry)
 {
     const int j = neighbour[entry], own = choice[e], other = choice[j];
     return j != e && ((own >= 0 && own / 4 == j) || (other >= 0 && other / 4 == e));
 }
 
 /* x = (x, y, z) of one element: force -= f, velocity += half_kick f / m. */
-LAW void fracture_take(GLOBAL state *restrict force, GLOBAL state *restrict velocity, state mass, state half_kick,
-                       int e, coeff x, coeff y, coeff z)
+LAW void fracture_take(UPDATE(state) force, UPDATE(state) velocity, state mass, state half_kick, int e, coeff x,
+                       coeff y, coeff z)
 {
     const coeff part[3] = {x, y, z};
     for (int c = 0; c < 3; ++c) {
@@ -349,8 +332,7 @@ LAW void fracture_take(GLOBAL state *restrict force, GLOBAL state *restrict velo
 }
 
 /* Volume of an element and its neighbours over unbroken bonds [m^3]. */
-LAW coeff fracture_weight(int e, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                          GLOBAL const coeff *restrict record)
+LAW coeff fracture_weight(int e, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record)
 {
     coeff sum = record[RECORD_OF(e) + 6 * C];
     for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
@@ -365,19 +347,14 @@ LAW coeff fracture_weight(int e, GLOBAL const int *restrict row_start, GLOBAL co
  * and opens with the new one), 0 none. Of every entry that breaks: step, stress [Pa] and mode of the element that chose
  * it (its own if both did), energy of the bond [J]. lost, broken [n]: half the energy and the number of bonds of each
  * element, added up. */
-KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, GLOBAL const int *restrict row_start,
-                           GLOBAL int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                           GLOBAL coeff *restrict inv_length, GLOBAL const int *restrict mark,
-                           GLOBAL const coeff *restrict record, GLOBAL coeff *restrict weight,
-                           GLOBAL const int *restrict choice, GLOBAL const coeff *restrict measure,
-                           GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                           coeff axial, coeff bend, coeff twist, GLOBAL const coeff *restrict beam_of,
-                           GLOBAL const state *restrict mass, GLOBAL const state *restrict inertia,
-                           GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL state *restrict velocity,
-                           GLOBAL state *restrict spin, GLOBAL int *restrict break_step,
-                           GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress,
-                           GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost,
-                           GLOBAL state *restrict broken)
+KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, OWN(int) row_start,
+                           UPDATE(int) neighbour, OWN(coeff) branch, UPDATE(coeff) inv_length, OWN(int) mark,
+                           GATHER(coeff) record, PUT(coeff) weight, GATHER(int) choice, GATHER(coeff) measure,
+                           GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                           GATHER(coeff) beam_of, OWN(state) mass, OWN(state) inertia, UPDATE(state) force,
+                           UPDATE(state) torque, UPDATE(state) velocity, UPDATE(state) spin, PUT(int) break_step,
+                           PUT(int) break_mode, PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) lost,
+                           UPDATE(state) broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;

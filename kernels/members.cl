@@ -12,7 +12,7 @@ typedef struct {
     lane_int lanes;          /* listed: place in the slice */
 } members;
 
-LAW members members_of_group(int group, GLOBAL const int *restrict row_start)
+LAW members members_of_group(int group, OWN(int) row_start)
 {
     const int slice = SLICE_OF(group), first = group * W;
     const lane_int own = lane_own(first);
@@ -20,11 +20,11 @@ LAW members members_of_group(int group, GLOBAL const int *restrict row_start)
 }
 
 /* Elements W item, ... of the list of n; behind its end the last one over and over. */
-LAW members members_of_list(int item, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start)
+LAW members members_of_list(int item, int n, OWN(int) list, OWN(int) row_start)
 {
-#define OWN(l) list[item * W + 0x##l < n ? item * W + 0x##l : n - 1]
-    const lane_int own = LANE_MAKE(lane_int, OWN);
-#undef OWN
+#define OWN_LANE(l) list[item * W + 0x##l < n ? item * W + 0x##l : n - 1]
+    const lane_int own = LANE_MAKE(lane_int, OWN_LANE);
+#undef OWN_LANE
 #define SLOTS(l) (row_start[LANE_ITEM(own, l) / C + 1] - row_start[LANE_ITEM(own, l) / C])
     const lane_int slots = LANE_MAKE(lane_int, SLOTS);
 #undef SLOTS
@@ -59,7 +59,7 @@ LAW lane_int members_record(members m, int n) { return (m.own - m.lanes) * n + m
 #endif
 
 /* ---- rows: of the bonds in one slot ---- */
-LAW lane_int members_neighbour(members m, GLOBAL const int *restrict neighbour, int slot)
+LAW lane_int members_neighbour(members m, OWN(int) neighbour, int slot)
 {
     if (!m.listed) return int_block(neighbour, slot, m.lane0);
     const lane_int at = members_entry(m, slot, 1), has = members_has(m, slot);
@@ -67,12 +67,12 @@ LAW lane_int members_neighbour(members m, GLOBAL const int *restrict neighbour, 
     return (has & LANE_MAKE(lane_int, NEXT)) | (~has & m.own);
 #undef NEXT
 }
-LAW lane members_row1(members m, GLOBAL const coeff *restrict p, int slot)
+LAW lane members_row1(members m, OWN(coeff) p, int slot)
 {
     return m.listed ? gather_component(p, members_entry(m, slot, 1))
                     : lane_load(p, (brc_size)slot * C + (brc_size)m.lane0);
 }
-LAW lane_vec3 members_row3(members m, GLOBAL const coeff *restrict p, int slot)
+LAW lane_vec3 members_row3(members m, OWN(coeff) p, int slot)
 {
     if (!m.listed) return lane_block3(p, slot, m.lane0);
     const lane_int at = members_entry(m, slot, 3);
@@ -85,47 +85,46 @@ LAW lane members_there(members m, int slot)
     return LANE_DIFFERENT(has, 0);
 }
 /* Areas, as numbers and as vectors. */
-LAW lane members_face1(members m, GLOBAL const coeff *restrict area, int slot)
+LAW lane members_face1(members m, OWN(coeff) area, int slot)
 {
     const lane s = members_row1(m, area, slot);
     return m.listed ? members_there(m, slot) * s : s;
 }
-LAW lane_vec3 members_face3(members m, GLOBAL const coeff *restrict area, int slot)
+LAW lane_vec3 members_face3(members m, OWN(coeff) area, int slot)
 {
     const lane_vec3 s = members_row3(m, area, slot);
     return m.listed ? lane_vec3_scale(members_there(m, slot), s) : s;
 }
 /* What a group asks for ahead; a list is short. */
-LAW void members_ahead1(members m, GLOBAL const coeff *restrict p, int slot)
+LAW void members_ahead1(members m, OWN(coeff) p, int slot)
 {
     if (!m.listed) rows_ahead1(p, slot);
 }
-LAW void members_ahead3(members m, GLOBAL const coeff *restrict p, int slot)
+LAW void members_ahead3(members m, OWN(coeff) p, int slot)
 {
     if (!m.listed) rows_ahead3(p, slot);
 }
-LAW void members_records_ahead9(members m, GLOBAL const coeff *restrict p)
+LAW void members_records_ahead9(members m, OWN(coeff) p)
 {
     if (!m.listed) records_ahead9(p, m.first);
 }
-LAW void members_gathers_ahead9(members m, GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour,
-                                int slot)
+LAW void members_gathers_ahead9(members m, GATHER(coeff) p, OWN(int) neighbour, int slot)
 {
     if (!m.listed) gathers_ahead9(p, neighbour, slot, m.end, m.lane0);
 }
 
 /* ---- of the elements ---- */
-LAW lane members_number(members m, GLOBAL const coeff *restrict p)
+LAW lane members_number(members m, OWN(coeff) p)
 {
     return m.listed ? gather_component(p, m.own) : lane_load(p, (brc_size)m.first);
 }
 /* A component of [slice][n][C]. */
-LAW lane members_block(members m, GLOBAL const coeff *restrict p, int n, int component)
+LAW lane members_block(members m, OWN(coeff) p, int n, int component)
 {
     return m.listed ? gather_component(p + component * C, members_record(m, n))
                     : lane_block(p, m.slice, n, component, m.lane0);
 }
-LAW lane_sym3 members_block6(members m, GLOBAL const coeff *restrict p)
+LAW lane_sym3 members_block6(members m, OWN(coeff) p)
 {
     if (!m.listed) return lane_block6(p, m.slice, m.lane0);
     const lane_int at = members_record(m, 6);
@@ -134,8 +133,7 @@ LAW lane_sym3 members_block6(members m, GLOBAL const coeff *restrict p)
                        gather_component(p + 4 * C, at), gather_component(p + 5 * C, at)};
 }
 /* sum + factor times [block][9][C] of elements whose slice has a block (boundary[slice] >= 0). */
-LAW lane_mat3 members_add_boundary(members m, lane_mat3 sum, lane factor, GLOBAL const int *restrict boundary,
-                                   GLOBAL const coeff *restrict p)
+LAW lane_mat3 members_add_boundary(members m, lane_mat3 sum, lane factor, OWN(int) boundary, OWN(coeff) p)
 {
     if (!m.listed)
         return boundary[m.slice] < 0
@@ -158,65 +156,65 @@ LAW lane_mat3 members_add_boundary(members m, lane_mat3 sum, lane factor, GLOBAL
 }
 
 /* ---- stores into [element][n] ---- */
-LAW void members_store9(members m, GLOBAL coeff *restrict p, lane_mat3 a)
+LAW void members_store9(members m, SCATTER(coeff) p, lane_mat3 a)
 {
     if (!m.listed) {
         lane_store9(p, m.first, a);
         return;
     }
-#define PUT(l)                                                                                                         \
+#define PUT_LANE(l)                                                                                                    \
     {                                                                                                                  \
         GLOBAL coeff *q = p + (brc_size)LANE_ITEM(m.own, l) * 9;                                                       \
         q[0] = LANE_ITEM(a.xx, l), q[1] = LANE_ITEM(a.xy, l), q[2] = LANE_ITEM(a.xz, l);                               \
         q[3] = LANE_ITEM(a.yx, l), q[4] = LANE_ITEM(a.yy, l), q[5] = LANE_ITEM(a.yz, l);                               \
         q[6] = LANE_ITEM(a.zx, l), q[7] = LANE_ITEM(a.zy, l), q[8] = LANE_ITEM(a.zz, l);                               \
     }
-    LANE_EACH(PUT)
-#undef PUT
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
-LAW void members_store6(members m, GLOBAL coeff *restrict p, lane_sym3 a)
+LAW void members_store6(members m, PUT(coeff) p, lane_sym3 a)
 {
     if (!m.listed) {
         lane_store6(p, m.first, a);
         return;
     }
-#define PUT(l)                                                                                                         \
+#define PUT_LANE(l)                                                                                                    \
     {                                                                                                                  \
         GLOBAL coeff *q = p + (brc_size)LANE_ITEM(m.own, l) * 6;                                                       \
         q[0] = LANE_ITEM(a.xx, l), q[1] = LANE_ITEM(a.yy, l), q[2] = LANE_ITEM(a.zz, l);                               \
         q[3] = LANE_ITEM(a.yz, l), q[4] = LANE_ITEM(a.xz, l), q[5] = LANE_ITEM(a.xy, l);                               \
     }
-    LANE_EACH(PUT)
-#undef PUT
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
-LAW void members_store3(members m, GLOBAL state *restrict p, lane_vec3 a)
+LAW void members_store3(members m, PUT(state) p, lane_vec3 a)
 {
     if (!m.listed) {
         state_store3(p, m.first, a);
         return;
     }
-#define PUT(l)                                                                                                         \
+#define PUT_LANE(l)                                                                                                    \
     {                                                                                                                  \
         GLOBAL state *q = p + (brc_size)LANE_ITEM(m.own, l) * 3;                                                       \
         q[0] = (state)LANE_ITEM(a.x, l), q[1] = (state)LANE_ITEM(a.y, l), q[2] = (state)LANE_ITEM(a.z, l);             \
     }
-    LANE_EACH(PUT)
-#undef PUT
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
-LAW void members_store1(members m, GLOBAL state *restrict p, lane a)
+LAW void members_store1(members m, PUT(state) p, lane a)
 {
     if (!m.listed) {
         state_store1(p, m.first, a);
         return;
     }
-#define PUT(l) p[LANE_ITEM(m.own, l)] = (state)LANE_ITEM(a, l);
-    LANE_EACH(PUT)
-#undef PUT
+#define PUT_LANE(l) p[LANE_ITEM(m.own, l)] = (state)LANE_ITEM(a, l);
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
 /* The same, of numbers that are no state. */
-LAW void members_put1(members m, GLOBAL coeff *restrict p, lane a)
+LAW void members_put1(members m, PUT(coeff) p, lane a)
 {
-#define PUT(l) p[LANE_ITEM(m.own, l)] = LANE_ITEM(a, l);
-    LANE_EACH(PUT)
-#undef PUT
+#define PUT_LANE(l) p[LANE_ITEM(m.own, l)] = LANE_ITEM(a, l);
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }

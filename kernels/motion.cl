@@ -2,9 +2,8 @@
 
 /* v += kick f / m, u += drift v. A full Verlet or symplectic Euler step has kick = drift = dt; a half kick has drift
  * 0. */
-KERNEL void advance(int n, state kick, state drift, GLOBAL const state *restrict mass,
-                    GLOBAL const state *restrict force, GLOBAL state *restrict velocity,
-                    GLOBAL state *restrict displacement)
+KERNEL void advance(int n, state kick, state drift, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
+                    UPDATE(state) displacement)
 {
     FOR_EACH_ITEM(e, n) {
         const state per_mass = kick / mass[e];
@@ -20,10 +19,8 @@ KERNEL void advance(int n, state kick, state drift, GLOBAL const state *restrict
 /* Tchamwa-Wielgosz: u += dt v + phi dt^2 a; v += dt a (docs/notebook/theory.md T3). lost accumulates, per element, the
  * part (phi - 1/2) dt^2 m a^2 - (dt v + phi dt^2 a).f_old / 2 of the scheme's own dissipation; numerical_close adds the
  * rest. */
-KERNEL void advance_tchamwa(int n, state dt, state phi, GLOBAL const state *restrict mass,
-                            GLOBAL const state *restrict force, GLOBAL state *restrict velocity,
-                            GLOBAL state *restrict displacement, GLOBAL state *restrict moved,
-                            GLOBAL state *restrict lost)
+KERNEL void advance_tchamwa(int n, state dt, state phi, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
+                            UPDATE(state) displacement, PUT(state) moved, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(e, n) {
         state sum = 0;
@@ -41,8 +38,7 @@ KERNEL void advance_tchamwa(int n, state dt, state phi, GLOBAL const state *rest
 }
 
 /* ... + du.f_new / 2, so that the sum is (phi - 1/2) dt^2 a.M a - du.K du / 2 on a linear system. */
-KERNEL void numerical_close(int n, GLOBAL const state *restrict force, GLOBAL const state *restrict moved,
-                            GLOBAL state *restrict lost)
+KERNEL void numerical_close(int n, OWN(state) force, OWN(state) moved, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(e, n) {
         state sum = 0;
@@ -52,8 +48,7 @@ KERNEL void numerical_close(int n, GLOBAL const state *restrict force, GLOBAL co
 }
 
 /* Mass damping over one step, exact for the drag alone: v *= factor = exp(-c dt); lost gains the energy [J]. */
-KERNEL void damp_mass(int n, state factor, GLOBAL const state *restrict mass, GLOBAL state *restrict velocity,
-                      GLOBAL state *restrict lost)
+KERNEL void damp_mass(int n, state factor, OWN(state) mass, UPDATE(state) velocity, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(e, n) {
         state square = 0;
@@ -68,8 +63,8 @@ KERNEL void damp_mass(int n, state factor, GLOBAL const state *restrict mass, GL
 
 /* v += factor f / m with f the drag on noise of velocities v [N/s of stiffness times velocity]; lost gains the energy
  * [J]. */
-KERNEL void damp_noise(int n, state factor, GLOBAL const state *restrict mass, GLOBAL const state *restrict drag,
-                       GLOBAL state *restrict velocity, GLOBAL state *restrict lost)
+KERNEL void damp_noise(int n, state factor, OWN(state) mass, OWN(state) drag, UPDATE(state) velocity,
+                       UPDATE(state) lost)
 {
     FOR_EACH_ITEM(e, n) {
         const state per_mass = factor / mass[e];
@@ -85,8 +80,7 @@ KERNEL void damp_noise(int n, state factor, GLOBAL const state *restrict mass, G
 }
 
 /* f += m g. */
-KERNEL void gravity(int n, state gx, state gy, state gz, GLOBAL const state *restrict mass,
-                    GLOBAL state *restrict force)
+KERNEL void gravity(int n, state gx, state gy, state gz, OWN(state) mass, UPDATE(state) force)
 {
     FOR_EACH_ITEM(e, n) {
         force[(brc_size)e * 3] += mass[e] * gx;
@@ -96,8 +90,7 @@ KERNEL void gravity(int n, state gx, state gy, state gz, GLOBAL const state *res
 }
 
 /* Kinetic energy [J] [n]. */
-KERNEL void kinetic_energy(int n, GLOBAL const state *restrict mass, GLOBAL const state *restrict velocity,
-                           GLOBAL state *restrict out)
+KERNEL void kinetic_energy(int n, OWN(state) mass, OWN(state) velocity, PUT(state) out)
 {
     FOR_EACH_ITEM(e, n) {
         const state x = velocity[(brc_size)e * 3], y = velocity[(brc_size)e * 3 + 1], z = velocity[(brc_size)e * 3 + 2];
@@ -106,10 +99,8 @@ KERNEL void kinetic_energy(int n, GLOBAL const state *restrict mass, GLOBAL cons
 }
 
 /* Imposed elements of one load: u = base + factor direction, v = rate direction on the chosen components. */
-KERNEL void impose_motion(int n, state factor, state rate, int set_displacement, GLOBAL const int *restrict element,
-                          GLOBAL const coeff *restrict component, GLOBAL const state *restrict base,
-                          GLOBAL const state *restrict direction, GLOBAL state *restrict velocity,
-                          GLOBAL state *restrict displacement)
+KERNEL void impose_motion(int n, state factor, state rate, int set_displacement, OWN(int) element, OWN(coeff) component,
+                          OWN(state) base, OWN(state) direction, PUT(state) velocity, PUT(state) displacement)
 {
     FOR_EACH_ITEM(i, n) {
         for (int c = 0; c < 3; ++c) {
@@ -125,11 +116,9 @@ KERNEL void impose_motion(int n, state factor, state rate, int set_displacement,
 /* Reaction of imposed elements, minus the internal force [N] [n][3]. book: 0 no more; 1 adds the work of the load since
  * the last booking: reaction over the path by the trapezoidal rule plus the change of the imposed components' own
  * kinetic energy [J]; 2 starts booking here. last, last_reaction [n][3]: u and reaction at the last booking. */
-KERNEL void impose_book(int n, state rate, state last_rate, int book, GLOBAL const int *restrict element,
-                        GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
-                        GLOBAL const state *restrict mass, GLOBAL const state *restrict displacement,
-                        GLOBAL const state *restrict force, GLOBAL state *restrict reaction,
-                        GLOBAL state *restrict last, GLOBAL state *restrict last_reaction, GLOBAL state *restrict work)
+KERNEL void impose_book(int n, state rate, state last_rate, int book, OWN(int) element, OWN(coeff) component,
+                        OWN(state) direction, OWN(state) mass, OWN(state) displacement, OWN(state) force,
+                        PUT(state) reaction, UPDATE(state) last, UPDATE(state) last_reaction, UPDATE(state) work)
 {
     FOR_EACH_ITEM(i, n) {
         for (int c = 0; c < 3; ++c) {
@@ -152,8 +141,7 @@ KERNEL void impose_book(int n, state rate, state last_rate, int book, GLOBAL con
 }
 
 /* Zero the chosen components of a vector: imposed elements in linear solves. */
-KERNEL void impose_zero(int n, GLOBAL const int *restrict element, GLOBAL const coeff *restrict component,
-                        GLOBAL state *restrict vector)
+KERNEL void impose_zero(int n, OWN(int) element, OWN(coeff) component, PUT(state) vector)
 {
     FOR_EACH_ITEM(i, n) {
         for (int c = 0; c < 3; ++c)
@@ -164,9 +152,8 @@ KERNEL void impose_zero(int n, GLOBAL const int *restrict element, GLOBAL const 
 /* Dead forces of one load on elements: f += factor total. total [n][3]: force per element at factor 1 [N]; book,
  * last_factor, reach, work: the work of the load by the trapezoidal rule, as impose_book; reach [n]: total.u at the
  * last booking. */
-KERNEL void push_elements(int n, state factor, state last_factor, int book, GLOBAL const int *restrict element,
-                          GLOBAL const state *restrict total, GLOBAL const state *restrict displacement,
-                          GLOBAL state *restrict force, GLOBAL state *restrict reach, GLOBAL state *restrict work)
+KERNEL void push_elements(int n, state factor, state last_factor, int book, OWN(int) element, OWN(state) total,
+                          OWN(state) displacement, UPDATE(state) force, UPDATE(state) reach, UPDATE(state) work)
 {
     FOR_EACH_ITEM(i, n) {
         state sum = 0;

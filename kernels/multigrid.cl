@@ -5,12 +5,10 @@
 /* out = right - A x of the finest level of cells: its bonds from area vectors and L/S, or from branches and areas
  * (by_branch). moduli_of [n][3]: with several materials. n_right: right sides there are: 0 none, 1 forces, 2 forces and
  * torques. */
-KERNEL void multigrid_cells(int n_groups, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict vector, GLOBAL const coeff *restrict number, int by_branch,
-                            coeff axial, coeff shear, coeff frame, GLOBAL const coeff *restrict moduli_of,
-                            GLOBAL const state *restrict move, GLOBAL const state *restrict turn, int n_right,
-                            GLOBAL const state *restrict right_force, GLOBAL const state *restrict right_torque,
-                            GLOBAL state *restrict force, GLOBAL state *restrict torque)
+KERNEL void multigrid_cells(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) vector, OWN(coeff) number,
+                            int by_branch, coeff axial, coeff shear, coeff frame, GATHER(coeff) moduli_of,
+                            GATHER(state) move, GATHER(state) turn, int n_right, OWN(state) right_force,
+                            OWN(state) right_torque, PUT(state) force, PUT(state) torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
@@ -54,12 +52,12 @@ KERNEL void multigrid_cells(int n_groups, GLOBAL const int *restrict row_start, 
 typedef struct {
     state v[6];
 } multigrid_node;
-LAW multigrid_node multigrid_load(GLOBAL const state *restrict move, GLOBAL const state *restrict turn, int i)
+LAW multigrid_node multigrid_load(GATHER(state) move, GATHER(state) turn, int i)
 {
     const brc_size at = (brc_size)i * 3;
     return (multigrid_node){{move[at], move[at + 1], move[at + 2], turn[at], turn[at + 1], turn[at + 2]}};
 }
-LAW void multigrid_store(GLOBAL state *restrict move, GLOBAL state *restrict turn, int i, multigrid_node y)
+LAW void multigrid_store(PUT(state) move, PUT(state) turn, int i, multigrid_node y)
 {
     for (int c = 0; c < 3; ++c) {
         move[(brc_size)i * 3 + c] = y.v[c];
@@ -67,7 +65,7 @@ LAW void multigrid_store(GLOBAL state *restrict move, GLOBAL state *restrict tur
     }
 }
 /* y + factor B x; block [6][6] by columns. */
-LAW multigrid_node multigrid_add(multigrid_node y, state factor, GLOBAL const state *restrict block, multigrid_node x)
+LAW multigrid_node multigrid_add(multigrid_node y, state factor, OWN(state) block, multigrid_node x)
 {
     for (int b = 0; b < 6; ++b) {
         const state by = factor * x.v[b];
@@ -76,7 +74,7 @@ LAW multigrid_node multigrid_add(multigrid_node y, state factor, GLOBAL const st
     return y;
 }
 /* y + B^T x. */
-LAW multigrid_node multigrid_add_transposed(multigrid_node y, GLOBAL const state *restrict block, multigrid_node x)
+LAW multigrid_node multigrid_add_transposed(multigrid_node y, GATHER(state) block, multigrid_node x)
 {
     for (int a = 0; a < 6; ++a)
         for (int b = 0; b < 6; ++b) y.v[a] += block[6 * a + b] * x.v[b];
@@ -84,9 +82,8 @@ LAW multigrid_node multigrid_add_transposed(multigrid_node y, GLOBAL const state
 }
 
 /* Held faces add blocks [n][36] to the stiffness of their elements: out -= block x. element [n] rows. */
-KERNEL void multigrid_ground(int n, GLOBAL const int *restrict element, GLOBAL const state *restrict block,
-                             GLOBAL const state *restrict move, GLOBAL const state *restrict turn,
-                             GLOBAL state *restrict force, GLOBAL state *restrict torque)
+KERNEL void multigrid_ground(int n, OWN(int) element, OWN(state) block, OWN(state) move, OWN(state) turn,
+                             UPDATE(state) force, UPDATE(state) torque)
 {
     FOR_EACH_ITEM(i, n) {
         const multigrid_node x = multigrid_load(move, turn, element[i]), y = multigrid_load(force, torque, element[i]);
@@ -96,11 +93,9 @@ KERNEL void multigrid_ground(int n, GLOBAL const int *restrict element, GLOBAL c
 }
 
 /* out = right - A x of a coarser level: rows of blocks [start[n]][36]; right only if n_right > 0. */
-KERNEL void multigrid_matrix(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict column,
-                             GLOBAL const state *restrict block, GLOBAL const state *restrict move,
-                             GLOBAL const state *restrict turn, int n_right, GLOBAL const state *restrict right_force,
-                             GLOBAL const state *restrict right_torque, GLOBAL state *restrict force,
-                             GLOBAL state *restrict torque)
+KERNEL void multigrid_matrix(int n, OWN(int) start, OWN(int) column, OWN(state) block, GATHER(state) move,
+                             GATHER(state) turn, int n_right, OWN(state) right_force, OWN(state) right_torque,
+                             PUT(state) force, PUT(state) torque)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
@@ -114,9 +109,8 @@ KERNEL void multigrid_matrix(int n, GLOBAL const int *restrict start, GLOBAL con
 }
 
 /* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21]. n_right as above: a missing torque is zero. */
-KERNEL void multigrid_step(int n, state weight, int add, GLOBAL const state *restrict inverse, int n_right,
-                           GLOBAL const state *restrict force, GLOBAL const state *restrict torque,
-                           GLOBAL state *restrict move, GLOBAL state *restrict turn)
+KERNEL void multigrid_step(int n, state weight, int add, OWN(state) inverse, int n_right, OWN(state) force,
+                           OWN(state) torque, UPDATE(state) move, UPDATE(state) turn)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL const state *p = inverse + (brc_size)e * 21;
@@ -138,10 +132,9 @@ KERNEL void multigrid_step(int n, state weight, int add, GLOBAL const state *res
 /* Rigid motions of aggregates, the finest level: force and torque about the aggregate's centre of what acts on its
  * members' free components (bits 1 2 4 of displacements, 8 16 32 of rotations). member [start[n]] rows, arm [n_rows][3]
  * from the centre [m]. */
-KERNEL void multigrid_collect(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict member,
-                              GLOBAL const coeff *restrict arm, GLOBAL const int *restrict free_bits,
-                              GLOBAL const state *restrict force, GLOBAL const state *restrict torque,
-                              GLOBAL state *restrict whole_force, GLOBAL state *restrict whole_torque)
+KERNEL void multigrid_collect(int n, OWN(int) start, OWN(int) member, GATHER(coeff) arm, GATHER(int) free_bits,
+                              GATHER(state) force, GATHER(state) torque, PUT(state) whole_force,
+                              PUT(state) whole_torque)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
@@ -161,10 +154,8 @@ KERNEL void multigrid_collect(int n, GLOBAL const int *restrict start, GLOBAL co
 }
 
 /* Members move with their aggregate in their free components. aggregate [n], -1: none. */
-KERNEL void multigrid_spread(int n, GLOBAL const int *restrict aggregate, GLOBAL const coeff *restrict arm,
-                             GLOBAL const int *restrict free_bits, GLOBAL const state *restrict whole_move,
-                             GLOBAL const state *restrict whole_turn, GLOBAL state *restrict move,
-                             GLOBAL state *restrict turn)
+KERNEL void multigrid_spread(int n, OWN(int) aggregate, OWN(coeff) arm, OWN(int) free_bits, GATHER(state) whole_move,
+                             GATHER(state) whole_turn, PUT(state) move, PUT(state) turn)
 {
     FOR_EACH_ITEM(e, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
@@ -183,10 +174,8 @@ KERNEL void multigrid_spread(int n, GLOBAL const int *restrict aggregate, GLOBAL
 }
 
 /* x += P e with rows of blocks [start[n]][36]. */
-KERNEL void multigrid_prolong(int n, GLOBAL const int *restrict start, GLOBAL const int *restrict column,
-                              GLOBAL const state *restrict block, GLOBAL const state *restrict coarse_move,
-                              GLOBAL const state *restrict coarse_turn, GLOBAL state *restrict move,
-                              GLOBAL state *restrict turn)
+KERNEL void multigrid_prolong(int n, OWN(int) start, OWN(int) column, OWN(state) block, GATHER(state) coarse_move,
+                              GATHER(state) coarse_turn, UPDATE(state) move, UPDATE(state) turn)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = multigrid_load(move, turn, i);
@@ -199,10 +188,8 @@ KERNEL void multigrid_prolong(int n, GLOBAL const int *restrict start, GLOBAL co
 }
 
 /* P^T r: column_start [n + 1] of the places (block, row) [.][2] of each column of P. */
-KERNEL void multigrid_restrict(int n, GLOBAL const int *restrict column_start, GLOBAL const int *restrict place,
-                               GLOBAL const state *restrict block, GLOBAL const state *restrict force,
-                               GLOBAL const state *restrict torque, GLOBAL state *restrict coarse_force,
-                               GLOBAL state *restrict coarse_torque)
+KERNEL void multigrid_restrict(int n, OWN(int) column_start, OWN(int) place, GATHER(state) block, GATHER(state) force,
+                               GATHER(state) torque, PUT(state) coarse_force, PUT(state) coarse_torque)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
@@ -215,9 +202,8 @@ KERNEL void multigrid_restrict(int n, GLOBAL const int *restrict column_start, G
 }
 
 /* The coarsest level, solved: the inverse [6 n][6 n], a node's displacement before its rotation. */
-KERNEL void multigrid_coarsest(int n, GLOBAL const state *restrict inverse, GLOBAL const state *restrict force,
-                               GLOBAL const state *restrict torque, GLOBAL state *restrict move,
-                               GLOBAL state *restrict turn)
+KERNEL void multigrid_coarsest(int n, OWN(state) inverse, GATHER(state) force, GATHER(state) torque, PUT(state) move,
+                               PUT(state) turn)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};

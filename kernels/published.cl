@@ -8,9 +8,8 @@
 #endif
 
 /* a = sum (u_j - u_i) (x) w R [m^2], times inv_shape. */
-LAW lane_mat3 published_fit(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                            GLOBAL const coeff *restrict area, int area_weights,
-                            GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict inv_shape)
+LAW lane_mat3 published_fit(members who, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) area, int area_weights,
+                            GATHER(state) displacement, OWN(coeff) inv_shape)
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
@@ -27,11 +26,9 @@ LAW lane_mat3 published_fit(members who, GLOBAL const int *restrict neighbour, G
 
 /* Strain of every element in the global frame [-] [n][6] (xx yy zz yz xz xy). inv_shape: (sum w R (x) R)^-1
  * [slice][6][C]; area_weights: w = S/|R| instead of 1; orientation: unit quaternions (w x y z) [n][4]. */
-KERNEL void published_strain_pass(int n_groups, GLOBAL const int *restrict row_start,
-                                  GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                  GLOBAL const coeff *restrict area, int area_weights,
-                                  GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                  GLOBAL const coeff *restrict inv_shape, int finite, GLOBAL coeff *restrict strain)
+KERNEL void published_strain_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                                  OWN(coeff) area, int area_weights, GATHER(state) displacement, OWN(state) orientation,
+                                  OWN(coeff) inv_shape, int finite, PUT(coeff) strain)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
@@ -65,7 +62,7 @@ typedef struct {
     lane lambda, mu, young;
 } published_moduli;
 LAW published_moduli published_moduli_of(lane_int own, lane_int j, coeff lambda_one, coeff mu_one, coeff young_one,
-                                         GLOBAL const coeff *restrict lame_of)
+                                         GATHER(coeff) lame_of)
 {
 #if BRC_MANY_MATERIALS
     const lane_int at = j * 3, at_own = own * 3;
@@ -84,20 +81,17 @@ typedef struct {
     lane_sym3 strain;
     lane_quat orientation;
 } published_own;
-LAW published_own published_own_of(lane_int own, GLOBAL const state *restrict displacement,
-                                   GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain)
+LAW published_own published_own_of(lane_int own, OWN(state) displacement, OWN(state) orientation, OWN(coeff) strain)
 {
     return (published_own){own, state_gather3(displacement, own), lane_gather6(strain, own),
                            lane_gather4(orientation, own)};
 }
 
 /* The bonds in one slot of the rows. */
-LAW published_bond published_bond_at(members who, int slot, published_own own, GLOBAL const int *restrict neighbour,
-                                     GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                     GLOBAL const state *restrict displacement,
-                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
-                                     coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
-                                     coeff couple, GLOBAL const coeff *restrict lame_of, int finite)
+LAW published_bond published_bond_at(members who, int slot, published_own own, OWN(int) neighbour, OWN(coeff) branch,
+                                     OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
+                                     GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                     coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, int finite)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, branch, slot);
@@ -115,12 +109,10 @@ LAW published_bond published_bond_at(members who, int slot, published_own own, G
 }
 
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. */
-LAW void published_force_of(members who, GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                            GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                            GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+LAW void published_force_of(members who, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) area,
+                            GATHER(state) displacement, GATHER(state) orientation, GATHER(coeff) strain,
                             coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
-                            GLOBAL const coeff *restrict lame_of, int finite, GLOBAL state *restrict force,
-                            GLOBAL state *restrict torque)
+                            GATHER(coeff) lame_of, int finite, PUT(state) force, PUT(state) torque)
 {
     const published_own own = published_own_of(who.own, displacement, orientation, strain);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
@@ -134,13 +126,11 @@ LAW void published_force_of(members who, GLOBAL const int *restrict neighbour, G
     members_store3(who, force, f);
     members_store3(who, torque, t);
 }
-KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_start,
-                                 GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                 GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                 GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
-                                 coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
-                                 GLOBAL const coeff *restrict lame_of, int finite, GLOBAL state *restrict force,
-                                 GLOBAL state *restrict torque)
+KERNEL void published_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                                 OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
+                                 GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                 coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, int finite,
+                                 PUT(state) force, PUT(state) torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
         published_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation,
@@ -148,13 +138,11 @@ KERNEL void published_force_pass(int n_groups, GLOBAL const int *restrict row_st
                            torque);
     }
 }
-KERNEL void published_force_listed(int n_items, int n, GLOBAL const int *restrict list,
-                                   GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                   GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                   GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                   GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                   coeff rotation_factor, coeff couple, GLOBAL const coeff *restrict lame_of,
-                                   int finite, GLOBAL state *restrict force, GLOBAL state *restrict torque)
+KERNEL void published_force_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                                   OWN(coeff) branch, OWN(coeff) area, GATHER(state) displacement,
+                                   GATHER(state) orientation, GATHER(coeff) strain, coeff lambda_one, coeff mu_one,
+                                   coeff young_one, coeff rotation_factor, coeff couple, GATHER(coeff) lame_of,
+                                   int finite, PUT(state) force, PUT(state) torque)
 {
     FOR_EACH_ITEM(item, n_items) {
         published_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement,
@@ -165,8 +153,8 @@ KERNEL void published_force_listed(int n_items, int n, GLOBAL const int *restric
 #undef MATERIAL
 
 /* Strain energy V sigma:e / 2 of the least-squares strain [J] [n]. Not the potential of the forces (there is none). */
-LAW state published_energy_of(int e, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
-                              coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of)
+LAW state published_energy_of(int e, OWN(coeff) strain, OWN(state) volume, coeff lambda_one, coeff mu_one,
+                              OWN(coeff) lame_of)
 {
     GLOBAL const coeff *s = strain + (brc_size)e * 6;
 #if BRC_MANY_MATERIALS
@@ -178,16 +166,13 @@ LAW state published_energy_of(int e, GLOBAL const coeff *restrict strain, GLOBAL
     const coeff square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + REAL(2) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
     return volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
 }
-KERNEL void published_energy(int n, GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
-                             coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of,
-                             GLOBAL state *restrict elastic)
+KERNEL void published_energy(int n, OWN(coeff) strain, OWN(state) volume, coeff lambda_one, coeff mu_one,
+                             OWN(coeff) lame_of, PUT(state) elastic)
 {
     FOR_EACH_ITEM(e, n) { elastic[e] = published_energy_of(e, strain, volume, lambda_one, mu_one, lame_of); }
 }
-KERNEL void published_energy_listed(int n_items, int n, GLOBAL const int *restrict list,
-                                    GLOBAL const coeff *restrict strain, GLOBAL const state *restrict volume,
-                                    coeff lambda_one, coeff mu_one, GLOBAL const coeff *restrict lame_of,
-                                    GLOBAL state *restrict elastic)
+KERNEL void published_energy_listed(int n_items, int n, OWN(int) list, OWN(coeff) strain, OWN(state) volume,
+                                    coeff lambda_one, coeff mu_one, OWN(coeff) lame_of, PUT(state) elastic)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int end = (item + 1) * W < n ? (item + 1) * W : n;
@@ -197,7 +182,7 @@ KERNEL void published_energy_listed(int n_items, int n, GLOBAL const int *restri
 }
 
 /* R - I of an orientation (finite), or of the rotation vector it stands for: twice its vector part. out [9] by rows. */
-LAW void published_turn(GLOBAL const state *restrict orientation, int e, int finite, state out[9])
+LAW void published_turn(OWN(state) orientation, int e, int finite, state out[9])
 {
     const state w = finite ? orientation[(brc_size)e * 4] : STATE(1), x = orientation[(brc_size)e * 4 + 1],
                 y = orientation[(brc_size)e * 4 + 2], z = orientation[(brc_size)e * 4 + 3],
@@ -213,12 +198,10 @@ LAW void published_turn(GLOBAL const state *restrict orientation, int e, int fin
 /* Dead tractions of one load on cells that turn: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit
  * factor. f_i += factor total, torque_i += what it turns the cell by, at the arms R (C - X) (small rotations: C - X).
  * total.u + moment:(R - I) is what the traction works on [J]. book, reach: as in traction_force_pass. */
-KERNEL void traction_turned_pass(int n, state factor, GLOBAL const int *restrict element,
-                                 GLOBAL const coeff *restrict total, GLOBAL const coeff *restrict moment,
-                                 GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-                                 int finite, int book, state last_factor, GLOBAL state *restrict force,
-                                 GLOBAL state *restrict torque, GLOBAL state *restrict reach,
-                                 GLOBAL state *restrict work)
+KERNEL void traction_turned_pass(int n, state factor, OWN(int) element, OWN(coeff) total, OWN(coeff) moment,
+                                 OWN(state) displacement, OWN(state) orientation, int finite, int book,
+                                 state last_factor, UPDATE(state) force, UPDATE(state) torque, UPDATE(state) reach,
+                                 UPDATE(state) work)
 {
     FOR_EACH_ITEM(i, n) {
         const int e = element[i];

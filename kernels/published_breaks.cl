@@ -4,11 +4,9 @@
 
 /* As published_strain_pass where bonds may be missing. spanned: projector on the directions that an element's bonds
  * span [slice][6][C]. */
-LAW void published_breaking_strain_of(members who, GLOBAL const int *restrict neighbour,
-                                      GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                      int area_weights, GLOBAL const state *restrict displacement,
-                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
-                                      GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
+LAW void published_breaking_strain_of(members who, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) area,
+                                      int area_weights, GATHER(state) displacement, OWN(state) orientation,
+                                      OWN(coeff) inv_shape, OWN(coeff) spanned, int finite, PUT(coeff) strain)
 {
     const lane_mat3 fitted = published_fit(who, neighbour, branch, area, area_weights, displacement, inv_shape);
     const lane_quat q = quat_conjugate(lane_gather4(orientation, who.own));
@@ -18,26 +16,20 @@ LAW void published_breaking_strain_of(members who, GLOBAL const int *restrict ne
                    finite ? published_strain_seen(fitted, turn, seen, 1)
                           : published_strain_seen(fitted, turn, seen, 0));
 }
-KERNEL void published_breaking_strain(int n_groups, GLOBAL const int *restrict row_start,
-                                      GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                      GLOBAL const coeff *restrict area, int area_weights,
-                                      GLOBAL const state *restrict displacement,
-                                      GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict inv_shape,
-                                      GLOBAL const coeff *restrict spanned, int finite, GLOBAL coeff *restrict strain)
+KERNEL void published_breaking_strain(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                                      OWN(coeff) area, int area_weights, GATHER(state) displacement,
+                                      OWN(state) orientation, OWN(coeff) inv_shape, OWN(coeff) spanned, int finite,
+                                      PUT(coeff) strain)
 {
     FOR_EACH_ITEM(group, n_groups) {
         published_breaking_strain_of(members_of_group(group, row_start), neighbour, branch, area, area_weights,
                                      displacement, orientation, inv_shape, spanned, finite, strain);
     }
 }
-KERNEL void published_breaking_strain_listed(int n_items, int n, GLOBAL const int *restrict list,
-                                             GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                                             GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                             int area_weights, GLOBAL const state *restrict displacement,
-                                             GLOBAL const state *restrict orientation,
-                                             GLOBAL const coeff *restrict inv_shape,
-                                             GLOBAL const coeff *restrict spanned, int finite,
-                                             GLOBAL coeff *restrict strain)
+KERNEL void published_breaking_strain_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                                             OWN(coeff) branch, OWN(coeff) area, int area_weights,
+                                             GATHER(state) displacement, OWN(state) orientation, OWN(coeff) inv_shape,
+                                             OWN(coeff) spanned, int finite, PUT(coeff) strain)
 {
     FOR_EACH_ITEM(item, n_items) {
         published_breaking_strain_of(members_of_list(item, n, list, row_start), neighbour, branch, area, area_weights,
@@ -47,14 +39,11 @@ KERNEL void published_breaking_strain_listed(int n_items, int n, GLOBAL const in
 
 /* As published_force_pass with the full law; reach [n]: the largest normal stress over limit of each element's bonds
  * [-]. */
-LAW void published_breaking_force_of(members who, GLOBAL const int *restrict neighbour,
-                                     GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                                     GLOBAL const state *restrict displacement,
-                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
+LAW void published_breaking_force_of(members who, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) area,
+                                     GATHER(state) displacement, GATHER(state) orientation, GATHER(coeff) strain,
                                      coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
-                                     coeff couple, GLOBAL const coeff *restrict lame_of,
-                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force,
-                                     GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
+                                     coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit, PUT(state) force,
+                                     PUT(state) torque, PUT(coeff) reach)
 {
     const published_own own = published_own_of(who.own, displacement, orientation, strain);
     lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
@@ -72,14 +61,11 @@ LAW void published_breaking_force_of(members who, GLOBAL const int *restrict nei
     members_store3(who, torque, t);
     members_put1(who, reach, largest);
 }
-KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict row_start,
-                                     GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                                     GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                                     GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
-                                     coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
-                                     coeff couple, GLOBAL const coeff *restrict lame_of,
-                                     GLOBAL const coeff *restrict limit, GLOBAL state *restrict force,
-                                     GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
+KERNEL void published_breaking_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                                     OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
+                                     GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                     coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit,
+                                     PUT(state) force, PUT(state) torque, PUT(coeff) reach)
 {
     FOR_EACH_ITEM(group, n_groups) {
         published_breaking_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement,
@@ -87,13 +73,12 @@ KERNEL void published_breaking_force(int n_groups, GLOBAL const int *restrict ro
                                     lame_of, limit, force, torque, reach);
     }
 }
-KERNEL void published_breaking_force_listed(
-    int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-    GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-    GLOBAL const state *restrict displacement, GLOBAL const state *restrict orientation,
-    GLOBAL const coeff *restrict strain, coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
-    coeff couple, GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
-    GLOBAL state *restrict force, GLOBAL state *restrict torque, GLOBAL coeff *restrict reach)
+KERNEL void published_breaking_force_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
+                                            OWN(coeff) branch, OWN(coeff) area, GATHER(state) displacement,
+                                            GATHER(state) orientation, GATHER(coeff) strain, coeff lambda_one,
+                                            coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
+                                            GATHER(coeff) lame_of, OWN(coeff) limit, PUT(state) force,
+                                            PUT(state) torque, PUT(coeff) reach)
 {
     FOR_EACH_ITEM(item, n_items) {
         published_breaking_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement,
@@ -104,14 +89,11 @@ KERNEL void published_breaking_force_listed(
 
 /* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; found [n_groups]: how many.
  * Only groups of elements where one may be look. */
-KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restrict row_start,
-                            GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict branch,
-                            GLOBAL const coeff *restrict area, GLOBAL const state *restrict displacement,
-                            GLOBAL const state *restrict orientation, GLOBAL const coeff *restrict strain,
-                            coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
-                            GLOBAL const coeff *restrict lame_of, GLOBAL const coeff *restrict limit,
-                            GLOBAL const coeff *restrict reach, GLOBAL int *restrict mark,
-                            GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
+KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                            OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
+                            GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                            coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit,
+                            OWN(coeff) reach, PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched, PUT(state) found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
@@ -146,11 +128,9 @@ KERNEL void published_check(int n_groups, coeff share, GLOBAL const int *restric
  * Where its smallest eigenvalue is not above support [n] the element has no strain any more (AGH19 section 2.2: fewer
  * than three contacts); keeping the directions that are spanned makes what is left run away. Marks are cleared.
  * area_weights: w = S/|R| instead of 1. */
-KERNEL void published_rebuild(int n, int area_weights, GLOBAL const int *restrict row_start,
-                              GLOBAL const coeff *restrict branch, GLOBAL const coeff *restrict area,
-                              GLOBAL const coeff *restrict alive, GLOBAL const coeff *restrict support,
-                              GLOBAL int *restrict changed, GLOBAL coeff *restrict inv_shape,
-                              GLOBAL coeff *restrict spanned, GLOBAL int *restrict mark)
+KERNEL void published_rebuild(int n, int area_weights, OWN(int) row_start, OWN(coeff) branch, OWN(coeff) area,
+                              OWN(coeff) alive, OWN(coeff) support, UPDATE(int) changed, PUT(coeff) inv_shape,
+                              PUT(coeff) spanned, PUT(int) mark)
 {
     FOR_EACH_ITEM(e, n) {
         if (changed[e]) {

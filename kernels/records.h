@@ -199,45 +199,45 @@ LAW void lane_store9(GLOBAL coeff *restrict p, int first, lane_mat3 a)
     const lane_columns r = lane_transpose((lane_columns){a.xx, a.xy, a.xz, a.yx, a.yy, a.yz, a.zx, a.zy});
     lane_store(q, 0, r.c0), lane_store(q, 9, r.c1), lane_store(q, 18, r.c2), lane_store(q, 27, r.c3);
     lane_store(q, 36, r.c4), lane_store(q, 45, r.c5), lane_store(q, 54, r.c6), lane_store(q, 63, r.c7);
-#define PUT(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
+#define PUT_LANE(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
 #elif LANE_SHUFFLES == 4
     lane_store_two(q, 9, a.xx, a.xy), lane_store_two(q + 2, 9, a.xz, a.yx);
     lane_store_two(q + 4, 9, a.yy, a.yz), lane_store_two(q + 6, 9, a.zx, a.zy);
-#define PUT(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
+#define PUT_LANE(l) q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
 #else
-#define PUT(l)                                                                                                         \
+#define PUT_LANE(l)                                                                                                    \
     q[0x##l * 9] = LANE_ITEM(a.xx, l), q[0x##l * 9 + 1] = LANE_ITEM(a.xy, l), q[0x##l * 9 + 2] = LANE_ITEM(a.xz, l),   \
               q[0x##l * 9 + 3] = LANE_ITEM(a.yx, l), q[0x##l * 9 + 4] = LANE_ITEM(a.yy, l),                            \
               q[0x##l * 9 + 5] = LANE_ITEM(a.yz, l), q[0x##l * 9 + 6] = LANE_ITEM(a.zx, l),                            \
               q[0x##l * 9 + 7] = LANE_ITEM(a.zy, l), q[0x##l * 9 + 8] = LANE_ITEM(a.zz, l);
 #endif
-    LANE_EACH(PUT)
-#undef PUT
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
 LAW void lane_store6(GLOBAL coeff *restrict p, int first, lane_sym3 a)
 {
     GLOBAL coeff *q = p + (brc_size)first * 6;
-#define PUT(l)                                                                                                         \
+#define PUT_LANE(l)                                                                                                    \
     q[0x##l * 6] = LANE_ITEM(a.xx, l), q[0x##l * 6 + 1] = LANE_ITEM(a.yy, l), q[0x##l * 6 + 2] = LANE_ITEM(a.zz, l),   \
               q[0x##l * 6 + 3] = LANE_ITEM(a.yz, l), q[0x##l * 6 + 4] = LANE_ITEM(a.xz, l),                            \
               q[0x##l * 6 + 5] = LANE_ITEM(a.xy, l);
-    LANE_EACH(PUT)
-#undef PUT
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
 LAW void state_store3(GLOBAL state *restrict p, int first, lane_vec3 a)
 {
     GLOBAL state *q = p + (brc_size)first * 3;
-#define PUT(l)                                                                                                         \
+#define PUT_LANE(l)                                                                                                    \
     q[0x##l * 3] = (state)LANE_ITEM(a.x, l), q[0x##l * 3 + 1] = (state)LANE_ITEM(a.y, l),                              \
               q[0x##l * 3 + 2] = (state)LANE_ITEM(a.z, l);
-    LANE_EACH(PUT)
-#undef PUT
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
 LAW void state_store1(GLOBAL state *restrict p, int first, lane a)
 {
-#define PUT(l) p[(brc_size)first + 0x##l] = (state)LANE_ITEM(a, l);
-    LANE_EACH(PUT)
-#undef PUT
+#define PUT_LANE(l) p[(brc_size)first + 0x##l] = (state)LANE_ITEM(a, l);
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 }
 
 #endif

@@ -9,8 +9,7 @@
  * fluxes + 1 + place. The records 0 and fluxes are those of all others: 0. */
 
 /* Stored as what the elements gained, behind record `first`, which is that of all others. */
-LAW void rim_gained(members who, int item, int first, GLOBAL const int *restrict level, lane_mat3 gained,
-                    GLOBAL coeff *restrict gain)
+LAW void rim_gained(members who, int item, int first, GATHER(int) level, lane_mat3 gained, SCATTER(coeff) gain)
 {
 #define OF(l) (first + RING_PLACE(level[LANE_ITEM(who.own, l)]))
     who.own = LANE_MAKE(lane_int, OF);
@@ -21,14 +20,11 @@ LAW void rim_gained(members who, int item, int first, GLOBAL const int *restrict
 
 /* As dlsm_stress of the elements of a list, and their V psi [J] from the same strain: what they hold after bonds broke.
  * gains: 1 where gain is wanted. */
-KERNEL void rim_stress(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                       GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict gradient,
-                       GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                       GLOBAL const coeff *restrict held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                       GLOBAL const coeff *restrict material, int finite, GLOBAL coeff *restrict stress,
-                       GLOBAL state *restrict elastic, int gains, GLOBAL const int *restrict level,
-                       GLOBAL coeff *restrict gain)
+KERNEL void rim_stress(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
+                       OWN(coeff) offset, GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
+                       OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one, OWN(coeff) material,
+                       int finite, UPDATE(coeff) stress, PUT(state) elastic, int gains, GATHER(int) level,
+                       SCATTER(coeff) gain)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
@@ -43,17 +39,13 @@ KERNEL void rim_stress(int n_items, int n, GLOBAL const int *restrict list, GLOB
 }
 
 /* As dlsm_flux_listed of the rings 0 and 1, and what B gained. */
-KERNEL void rim_inner_flux(int n_items, int n, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                           GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict area,
-                           GLOBAL const coeff *restrict offset, GLOBAL const coeff *restrict ratio,
-                           GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                           GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict inv_shape,
-                           GLOBAL const coeff *restrict inv_volume, GLOBAL const int *restrict boundary,
-                           GLOBAL const coeff *restrict held_moment, int face_loads, coeff k_one, coeff ell_one,
-                           coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict material,
-                           GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of, int finite,
-                           GLOBAL coeff *restrict flux, GLOBAL coeff *restrict bond_part, int fluxes,
-                           GLOBAL const int *restrict level, GLOBAL coeff *restrict gain)
+KERNEL void rim_inner_flux(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
+                           OWN(coeff) offset, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
+                           GATHER(coeff) stress, OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary,
+                           OWN(coeff) held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
+                           coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
+                           int finite, UPDATE(coeff) flux, PUT(coeff) bond_part, int fluxes, GATHER(int) level,
+                           SCATTER(coeff) gain)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
@@ -72,8 +64,8 @@ KERNEL void rim_inner_flux(int n_items, int n, GLOBAL const int *restrict list, 
 typedef struct {
     int n, slot[RIM_SLOTS], record[RIM_SLOTS];
 } rim_bonds;
-LAW void rim_select(rim_bonds *out, int e, int first, int end, int all, int from_stress,
-                    GLOBAL const int *restrict neighbour, GLOBAL const int *restrict level)
+LAW void rim_select(rim_bonds *out, int e, int first, int end, int all, int from_stress, OWN(int) neighbour,
+                    GATHER(int) level)
 {
     const int stop = first + RIM_SLOTS < end ? first + RIM_SLOTS : end;
     int n = 0;
@@ -87,7 +79,7 @@ LAW void rim_select(rim_bonds *out, int e, int first, int end, int all, int from
     out->n = n;
 }
 /* Their faces are asked for. */
-LAW void rim_ask(const rim_bonds *bonds, int e, GLOBAL const coeff *restrict p)
+LAW void rim_ask(const rim_bonds *bonds, int e, OWN(coeff) p)
 {
     for (int m = 0; m < bonds->n; ++m) {
         const brc_size at = (brc_size)bonds->slot[m] * 3 * C + e % C;
@@ -100,11 +92,9 @@ LAW void rim_ask(const rim_bonds *bonds, int e, GLOBAL const coeff *restrict p)
 /* B of ring 2, list: that of the rings 0 to 2. It gains -(1/2) sum (P_j s) (x) d A^-1 of what its neighbours' P gained
  * (dlsm_flux.h). A work-item looks for the bonds of W elements before it sums them up, so that their faces are under
  * way together. */
-KERNEL void rim_flux(int n_items, int n, GLOBAL const int *restrict list, int fluxes,
-                     GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                     GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict offset,
-                     GLOBAL const coeff *restrict inv_shape, GLOBAL const int *restrict level,
-                     GLOBAL coeff *restrict gain, GLOBAL coeff *restrict flux)
+KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row_start, OWN(int) neighbour,
+                     GATHER(coeff) area, GATHER(coeff) offset, OWN(coeff) inv_shape, GATHER(int) level,
+                     SCATTER(coeff) gain, UPDATE(coeff) flux)
 {
     FOR_EACH_ITEM(item, n_items) {
         rim_bonds bonds[W];
@@ -149,11 +139,9 @@ KERNEL void rim_flux(int n_items, int n, GLOBAL const int *restrict list, int fl
 
 /* Force of the rings 2 and 3, list: that of the rings 0 to 3. That of before and sum (B_i + B_j) s of what both gained
  * (dlsm_bond.h), taken over as ring_replace does. */
-KERNEL void rim_force(int n_items, int n, GLOBAL const int *restrict list, int fluxes,
-                      GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                      GLOBAL const coeff *restrict area, GLOBAL const int *restrict level,
-                      GLOBAL const coeff *restrict gain, state half_kick, GLOBAL const state *restrict mass,
-                      GLOBAL state *restrict force, GLOBAL state *restrict velocity, GLOBAL state *restrict fresh)
+KERNEL void rim_force(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row_start, OWN(int) neighbour,
+                      GATHER(coeff) area, GATHER(int) level, GATHER(coeff) gain, state half_kick, OWN(state) mass,
+                      UPDATE(state) force, UPDATE(state) velocity, PUT(state) fresh)
 {
     FOR_EACH_ITEM(item, n_items) {
         rim_bonds bonds[W];

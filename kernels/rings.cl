@@ -15,8 +15,8 @@
 #define RING_IS_OUTER(level) (((level) >> 1) & 1)
 
 /* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
-KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict neighbour, GLOBAL const int *origin, GLOBAL int *level)
+KERNEL void ring_spread(int n_groups, int from, int to, OWN(int) row_start, OWN(int) neighbour,
+                        GLOBAL const int *origin, GLOBAL int *level)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int is_from = int_load(origin, (brc_size)group * W) == from;
@@ -35,7 +35,7 @@ KERNEL void ring_spread(int n_groups, int from, int to, GLOBAL const int *restri
 }
 
 /* Ring 0 is where some number is above 0, or with above 0 where it is not. */
-KERNEL void ring_seed(int n, int above, GLOBAL const int *restrict number, GLOBAL int *restrict touched)
+KERNEL void ring_seed(int n, int above, OWN(int) number, PUT(int) touched)
 {
     FOR_EACH_ITEM(e, n) { touched[e] = (number[e] > 0) == above; }
 }
@@ -60,8 +60,7 @@ LAW int rings_reach(lane_int touched, lane_int level)
 
 /* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum.
  * n and SCAN_BLOCK are multiples of W. */
-KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restrict touched,
-                       GLOBAL const int *restrict level, GLOBAL int *restrict count)
+KERNEL void ring_count(int n_blocks, int n, int which, OWN(int) touched, OWN(int) level, PUT(int) count)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -85,7 +84,7 @@ KERNEL void ring_count(int n_blocks, int n, int which, GLOBAL const int *restric
 }
 
 /* Running sums of the counts of every list, each of the blocks before, at the end of all. n_lists: RING_KINDS. */
-KERNEL void ring_tops(int n_lists, int n_blocks, GLOBAL int *restrict count)
+KERNEL void ring_tops(int n_lists, int n_blocks, UPDATE(int) count)
 {
     FOR_EACH_ITEM(k, n_lists) {
         int before = 0;
@@ -100,9 +99,8 @@ KERNEL void ring_tops(int n_lists, int n_blocks, GLOBAL int *restrict count)
 
 /* What each list and those before it hold, in the order of the rows: neighbours in the body, whose numbers share places
  * in memory, are done together whatever their ring. next: running sums of count. */
-KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touched, GLOBAL int *restrict level,
-                      GLOBAL const int *restrict next, GLOBAL int *restrict upto_0, GLOBAL int *restrict upto_1,
-                      GLOBAL int *restrict upto_2, GLOBAL int *restrict upto_3)
+KERNEL void ring_list(int n_blocks, int n, int which, UPDATE(int) touched, UPDATE(int) level, OWN(int) next,
+                      SCATTER(int) upto_0, SCATTER(int) upto_1, SCATTER(int) upto_2, SCATTER(int) upto_3)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -128,15 +126,15 @@ KERNEL void ring_list(int n_blocks, int n, int which, GLOBAL int *restrict touch
     }
 }
 
-KERNEL void ring_forget(int n, GLOBAL const int *restrict list, GLOBAL int *restrict level)
+KERNEL void ring_forget(int n, OWN(int) list, PUT(int) level)
 {
     FOR_EACH_ITEM(k, n) { level[list[k]] = 0; }
 }
 
 /* The force of an element becomes `now` [N], and its velocity gains half_kick over mass times what the force loses.
  * gain: what force^2 / mass gained, by components. */
-LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, GLOBAL state *restrict force,
-                   GLOBAL state *restrict velocity, GLOBAL state *restrict gain)
+LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, UPDATE(state) force, UPDATE(state) velocity,
+                   PUT(state) gain)
 {
     const state was = force[at];
     velocity[at] += half_kick * (was - now) * per_mass;
@@ -145,8 +143,8 @@ LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, GLOB
 }
 
 /* fresh [n][3] takes the place of the force of the listed elements. Afterwards fresh holds the gain. */
-KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list, GLOBAL const state *restrict mass,
-                         GLOBAL state *restrict fresh, GLOBAL state *restrict force, GLOBAL state *restrict velocity)
+KERNEL void ring_replace(int n, state half_kick, OWN(int) list, OWN(state) mass, UPDATE(state) fresh,
+                         UPDATE(state) force, UPDATE(state) velocity)
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)list[k];
@@ -157,8 +155,7 @@ KERNEL void ring_replace(int n, state half_kick, GLOBAL const int *restrict list
 
 /* The same gain of all elements, whose forces were evaluated in their place: was [n][3] holds the forces from before,
  * then the gain. */
-KERNEL void ring_gain(int n, GLOBAL const state *restrict mass, GLOBAL const state *restrict force,
-                      GLOBAL state *restrict was)
+KERNEL void ring_gain(int n, OWN(state) mass, OWN(state) force, UPDATE(state) was)
 {
     FOR_EACH_ITEM(e, n) {
         for (int c = 0; c < 3; ++c) {
@@ -172,8 +169,7 @@ KERNEL void ring_gain(int n, GLOBAL const state *restrict mass, GLOBAL const sta
  * about a mean that lies dt^2/16 (v.K v - f.M^-1 f) above it; where f jumps at rest, that mean falls by dt^2/16 times
  * the gain of f.M^-1 f. per: dt^2/16; gain [n][3] [N^2/kg]; lost [n] [J]. listed: of the n elements of the list, else
  * of all. */
-KERNEL void ring_book(int n, int listed, state per, GLOBAL const int *restrict list, GLOBAL const state *restrict gain,
-                      GLOBAL state *restrict lost)
+KERNEL void ring_book(int n, int listed, state per, OWN(int) list, OWN(state) gain, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)(listed ? list[k] : k);

@@ -2,7 +2,7 @@
  * have rotations of their own. One work-item does one element. */
 
 /* q <- exp(h) q, normalised; |h|, the half turn, is far below 1: cos and sin(|h|)/|h| by their series. */
-LAW void orientation_turn(GLOBAL state *restrict q, state hx, state hy, state hz)
+LAW void orientation_turn(UPDATE(state) q, state hx, state hy, state hz)
 {
     const state hh = hx * hx + hy * hy + hz * hz;
     const state c0 = STATE(1) - hh * (STATE(0.5) - hh * (STATE(1.0 / 24) - hh * STATE(1.0 / 720)));
@@ -16,9 +16,8 @@ LAW void orientation_turn(GLOBAL state *restrict q, state hx, state hy, state hz
 
 /* Rotation: w += kick T / I [rad/s], then q <- exp(turn/2) q with turn = drift w_new + extra T / I [rad]; extra is
  * (phi - 1) dt^2 for Tchamwa-Wielgosz, else 0. inertia: mean moment of inertia of each cell [kg m^2]. */
-KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL const state *restrict inertia,
-                             GLOBAL const state *restrict torque, GLOBAL state *restrict spin,
-                             GLOBAL state *restrict orientation)
+KERNEL void advance_rotation(int n, state kick, state drift, state extra, OWN(state) inertia, OWN(state) torque,
+                             UPDATE(state) spin, UPDATE(state) orientation)
 {
     FOR_EACH_ITEM(e, n) {
         state half_turn[3];
@@ -33,8 +32,7 @@ KERNEL void advance_rotation(int n, state kick, state drift, state extra, GLOBAL
 }
 
 /* Rotational kinetic energy I w^2 / 2, added [J] [n]. */
-KERNEL void add_spin_energy(int n, GLOBAL const state *restrict inertia, GLOBAL const state *restrict spin,
-                            GLOBAL state *restrict out)
+KERNEL void add_spin_energy(int n, OWN(state) inertia, OWN(state) spin, UPDATE(state) out)
 {
     FOR_EACH_ITEM(e, n) {
         const state x = spin[(brc_size)e * 3], y = spin[(brc_size)e * 3 + 1], z = spin[(brc_size)e * 3 + 2];
@@ -43,7 +41,7 @@ KERNEL void add_spin_energy(int n, GLOBAL const state *restrict inertia, GLOBAL 
 }
 
 /* Linear solves: quaternions (1, theta/2) of small rotation vectors theta [n][3]. */
-KERNEL void small_rotation(int n, GLOBAL const state *restrict theta, GLOBAL state *restrict orientation)
+KERNEL void small_rotation(int n, OWN(state) theta, PUT(state) orientation)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL state *q = orientation + (brc_size)e * 4;
@@ -53,7 +51,7 @@ KERNEL void small_rotation(int n, GLOBAL const state *restrict theta, GLOBAL sta
 }
 
 /* q <- exp(theta/2) q for finite rotation vectors theta [n][3] [rad], each far below a turn; normalised. */
-KERNEL void turn_orientation(int n, GLOBAL const state *restrict theta, GLOBAL state *restrict orientation)
+KERNEL void turn_orientation(int n, OWN(state) theta, UPDATE(state) orientation)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL const state *t = theta + (brc_size)e * 3;
@@ -64,9 +62,8 @@ KERNEL void turn_orientation(int n, GLOBAL const state *restrict theta, GLOBAL s
 /* Turned elements of one load: turn the orientations by the chosen components of angle direction [rad] (finite: 1 q <-
  * exp(turn/2) q; 0 the small rotations of a linear solve are added) unless the angle is 0, and set their spin to rate
  * direction [rad/s]. */
-KERNEL void impose_turn(int n, state angle, int finite, state rate, GLOBAL const int *restrict element,
-                        GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
-                        GLOBAL state *restrict spin, GLOBAL state *restrict orientation)
+KERNEL void impose_turn(int n, state angle, int finite, state rate, OWN(int) element, OWN(coeff) component,
+                        OWN(state) direction, PUT(state) spin, UPDATE(state) orientation)
 {
     FOR_EACH_ITEM(i, n) {
         GLOBAL state *q = orientation + (brc_size)element[i] * 4;
@@ -86,11 +83,9 @@ KERNEL void impose_turn(int n, state angle, int finite, state rate, GLOBAL const
 
 /* Moment of the load that turns elements, minus the internal torque [N m] [n][3]; the torque it balances becomes zero.
  * step: what the angle's factor grew by since the last booking; book, rate, last_rate, work: as impose_book. */
-KERNEL void turn_book(int n, state step, state rate, state last_rate, int book, GLOBAL const int *restrict element,
-                      GLOBAL const coeff *restrict component, GLOBAL const state *restrict direction,
-                      GLOBAL const state *restrict inertia, GLOBAL state *restrict torque,
-                      GLOBAL state *restrict reaction, GLOBAL state *restrict last_reaction,
-                      GLOBAL state *restrict work)
+KERNEL void turn_book(int n, state step, state rate, state last_rate, int book, OWN(int) element, OWN(coeff) component,
+                      OWN(state) direction, OWN(state) inertia, UPDATE(state) torque, PUT(state) reaction,
+                      UPDATE(state) last_reaction, UPDATE(state) work)
 {
     FOR_EACH_ITEM(i, n) {
         for (int c = 0; c < 3; ++c) {
@@ -112,9 +107,8 @@ KERNEL void turn_book(int n, state step, state rate, state last_rate, int book, 
 
 /* z = P r with a symmetric 6 x 6 block per element, upper triangle by rows [n][21]; r and z are split into forces or
  * displacements [n][3] and torques or rotations [n][3]. */
-KERNEL void block6_precondition(int n, GLOBAL const state *restrict block, GLOBAL const state *restrict force,
-                                GLOBAL const state *restrict torque, GLOBAL state *restrict move,
-                                GLOBAL state *restrict turn)
+KERNEL void block6_precondition(int n, OWN(state) block, OWN(state) force, OWN(state) torque, PUT(state) move,
+                                PUT(state) turn)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL const state *p = block + (brc_size)e * 21;

@@ -5,7 +5,7 @@
 #define SORT_BINS 256
 
 /* sum[b] = sum of x over block b. */
-KERNEL void scan_sums(int n_blocks, int n, GLOBAL const int *restrict x, GLOBAL int *restrict sum)
+KERNEL void scan_sums(int n_blocks, int n, OWN(int) x, PUT(int) sum)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -16,7 +16,7 @@ KERNEL void scan_sums(int n_blocks, int n, GLOBAL const int *restrict x, GLOBAL 
 }
 
 /* One work-item: sum[b] becomes the sum of those before it, sum[n_blocks] that of all. n_items: 1. */
-KERNEL void scan_tops(int n_items, int n_blocks, GLOBAL int *restrict sum)
+KERNEL void scan_tops(int n_items, int n_blocks, SCATTER(int) sum)
 {
     FOR_EACH_ITEM(k, n_items) {
         int before = k;
@@ -30,8 +30,7 @@ KERNEL void scan_tops(int n_items, int n_blocks, GLOBAL int *restrict sum)
 }
 
 /* start[i] = sum of x before i; start[n] that of all. */
-KERNEL void scan_fill(int n_blocks, int n, GLOBAL const int *restrict x, GLOBAL const int *restrict sum,
-                      GLOBAL int *restrict start)
+KERNEL void scan_fill(int n_blocks, int n, OWN(int) x, OWN(int) sum, SCATTER(int) start)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -45,7 +44,7 @@ KERNEL void scan_fill(int n_blocks, int n, GLOBAL const int *restrict x, GLOBAL 
 }
 
 /* count[bin][block]: keys of the block whose digit is bin. */
-KERNEL void sort_count(int n_blocks, int n, int shift, GLOBAL const int *restrict key, GLOBAL int *restrict count)
+KERNEL void sort_count(int n_blocks, int n, int shift, OWN(int) key, SCATTER(int) count)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -56,8 +55,8 @@ KERNEL void sort_count(int n_blocks, int n, int shift, GLOBAL const int *restric
 }
 
 /* Keys with their values to where the running sums of count say; next is used up. */
-KERNEL void sort_move(int n_blocks, int n, int shift, GLOBAL const int *restrict key, GLOBAL const int *restrict value,
-                      GLOBAL int *restrict next, GLOBAL int *restrict key_out, GLOBAL int *restrict value_out)
+KERNEL void sort_move(int n_blocks, int n, int shift, OWN(int) key, OWN(int) value, SCATTER(int) next,
+                      SCATTER(int) key_out, SCATTER(int) value_out)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;

@@ -46,38 +46,38 @@
 #define SOFT_NUMBER(entry, what) crack[(((entry) / C) * SOFT_WIDTH + SOFT_##what) * C + (entry) % C]
 #define SOFT_IS_SLIDING(entry) (SOFT_NUMBER(entry, TURNS) > REAL(1))
 
-LAW soft_vector soft_part(GLOBAL const coeff *restrict crack, brc_size entry, int what)
+LAW soft_vector soft_part(GATHER(coeff) crack, brc_size entry, int what)
 {
     GLOBAL const coeff *p = crack + ((entry / C) * SOFT_WIDTH + (brc_size)what) * C + entry % C;
     return (soft_vector){p[0], p[C], p[2 * C]};
 }
-LAW void soft_put(GLOBAL coeff *restrict crack, brc_size entry, int what, soft_vector a)
+LAW void soft_put(SCATTER(coeff) crack, brc_size entry, int what, soft_vector a)
 {
     GLOBAL coeff *p = crack + ((entry / C) * SOFT_WIDTH + (brc_size)what) * C + entry % C;
     p[0] = a.x, p[C] = a.y, p[2 * C] = a.z;
 }
 /* Area vector of an entry [m^2]. */
-LAW soft_vector soft_area(GLOBAL const coeff *restrict area, brc_size entry)
+LAW soft_vector soft_area(OWN(coeff) area, brc_size entry)
 {
     GLOBAL const coeff *p = area + (entry / C) * 3 * C + entry % C;
     return (soft_vector){p[0], p[C], p[2 * C]};
 }
 /* [element][9] times a vector. */
-LAW soft_vector soft_times(GLOBAL const coeff *restrict m, int e, soft_vector a)
+LAW soft_vector soft_times(GATHER(coeff) m, int e, soft_vector a)
 {
     GLOBAL const coeff *p = m + (brc_size)e * 9;
     return (soft_vector){p[0] * a.x + p[1] * a.y + p[2] * a.z, p[3] * a.x + p[4] * a.y + p[5] * a.z,
                          p[6] * a.x + p[7] * a.y + p[8] * a.z};
 }
 /* A^-1 s of element e [1/m]. */
-LAW soft_vector soft_pull_of(GLOBAL const coeff *restrict inv_shape, int e, soft_vector s)
+LAW soft_vector soft_pull_of(GATHER(coeff) inv_shape, int e, soft_vector s)
 {
     GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
     const coeff xx = p[0], yy = p[C], zz = p[2 * C], yz = p[3 * C], xz = p[4 * C], xy = p[5 * C];
     return (soft_vector){xx * s.x + xy * s.y + xz * s.z, xy * s.x + yy * s.y + yz * s.z,
                          xz * s.x + yz * s.y + zz * s.z};
 }
-LAW soft_vector soft_jump(GLOBAL const state *restrict displacement, int i, int j)
+LAW soft_vector soft_jump(GATHER(state) displacement, int i, int j)
 {
     GLOBAL const state *a = displacement + (brc_size)i * 3, *b = displacement + (brc_size)j * 3;
     return (soft_vector){(coeff)(b[0] - a[0]), (coeff)(b[1] - a[1]), (coeff)(b[2] - a[2])};
@@ -91,11 +91,9 @@ LAW soft_vector soft_jump(GLOBAL const state *restrict displacement, int i, int 
 #endif
 
 /* Takes the openings out of H. listed: only of the n elements of the list. */
-KERNEL void soft_gradient(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                          GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
-                          GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack,
-                          GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape,
-                          GLOBAL coeff *restrict gradient)
+KERNEL void soft_gradient(int n, int listed, OWN(int) list, OWN(int) row_start, OWN(coeff) alive, OWN(int) n_open,
+                          OWN(int) open, OWN(coeff) crack, OWN(coeff) area, OWN(coeff) inv_shape,
+                          UPDATE(coeff) gradient)
 {
     FOR_EACH_ITEM(item, n) {
         const int e = listed ? list[item] : item;
@@ -115,13 +113,10 @@ KERNEL void soft_gradient(int n, int listed, GLOBAL const int *restrict list, GL
 
 /* Takes them out of B, whose sum of r (x) s is that of J - w. With several materials it reads J. With one it reads
  * gradients alone, which are those of J - w - v: v comes back in. */
-KERNEL void soft_flux(int n, int listed, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                      GLOBAL const int *restrict neighbour, GLOBAL const coeff *restrict alive,
-                      GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
-                      GLOBAL const coeff *restrict crack, GLOBAL const coeff *restrict area,
-                      GLOBAL const coeff *restrict inv_shape, GLOBAL const coeff *restrict gradient, coeff k_one,
-                      coeff ell_one, GLOBAL const coeff *restrict modulus, GLOBAL const coeff *restrict ell_of,
-                      coeff beta, coeff one_plus_tau, GLOBAL coeff *restrict flux)
+KERNEL void soft_flux(int n, int listed, OWN(int) list, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive,
+                      OWN(int) n_open, OWN(int) open, OWN(coeff) crack, OWN(coeff) area, OWN(coeff) inv_shape,
+                      OWN(coeff) gradient, coeff k_one, coeff ell_one, GATHER(coeff) modulus, OWN(coeff) ell_of,
+                      coeff beta, coeff one_plus_tau, UPDATE(coeff) flux)
 {
     FOR_EACH_ITEM(item, n) {
         const int e = listed ? list[item] : item;
@@ -160,11 +155,9 @@ KERNEL void soft_flux(int n, int listed, GLOBAL const int *restrict list, GLOBAL
 }
 
 /* Takes them out of the forces. */
-KERNEL void soft_take_force(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                            GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
-                            GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack,
-                            GLOBAL const coeff *restrict ratio, coeff k_one, coeff one_plus_tau,
-                            GLOBAL const coeff *restrict modulus, GLOBAL state *restrict force)
+KERNEL void soft_take_force(int n, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(int) n_open,
+                            OWN(int) open, OWN(coeff) crack, OWN(coeff) ratio, coeff k_one, coeff one_plus_tau,
+                            GATHER(coeff) modulus, UPDATE(state) force)
 {
     FOR_EACH_ITEM(e, n) {
         if (n_open[e]) {
@@ -182,8 +175,8 @@ KERNEL void soft_take_force(int n, GLOBAL const int *restrict row_start, GLOBAL 
 }
 
 /* Force of a bond on its own element [N]: dlsm_bond_force. */
-LAW soft_vector soft_bond_force(GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part, int e, int j,
-                                soft_vector s, coeff spring, coeff ratio, soft_vector elastic_jump)
+LAW soft_vector soft_bond_force(GATHER(coeff) flux, GATHER(coeff) bond_part, int e, int j, soft_vector s, coeff spring,
+                                coeff ratio, soft_vector elastic_jump)
 {
     soft_vector f = soft_add(soft_times(flux, e, s), REAL(1), soft_times(flux, j, s));
 #if BRC_MANY_MATERIALS
@@ -194,8 +187,8 @@ LAW soft_vector soft_bond_force(GLOBAL const coeff *restrict flux, GLOBAL const 
 
 /* How unevenly the two sides of a face pull [N]: what the opening of either side alone does work against; the same seen
  * from both. With one material the flux holds the bond's own part too, which depends on what both sides open. */
-LAW soft_vector soft_uneven(GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict gradient, int e, int j,
-                            soft_vector s, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau)
+LAW soft_vector soft_uneven(GATHER(coeff) flux, GATHER(coeff) gradient, int e, int j, soft_vector s, coeff k_one,
+                            coeff ell_one, coeff beta, coeff one_plus_tau)
 {
     soft_vector d = soft_add(soft_times(flux, e, s), REAL(-1), soft_times(flux, j, s));
 #if BRC_MANY_MATERIALS
@@ -218,8 +211,7 @@ LAW soft_vector soft_uneven(GLOBAL const coeff *restrict flux, GLOBAL const coef
 }
 
 /* Mean of the two cells' stress in the present frame, sym(P F_H^T) [Pa]. */
-LAW failure_stress soft_mean_stress(GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress, int i,
-                                    int j)
+LAW failure_stress soft_mean_stress(GATHER(coeff) gradient, GATHER(coeff) stress, int i, int j)
 {
     failure_stress sum = {0, 0, 0, 0, 0, 0};
     for (int side = 0; side < 2; ++side) {
@@ -237,12 +229,12 @@ LAW failure_stress soft_mean_stress(GLOBAL const coeff *restrict gradient, GLOBA
 }
 
 /* Area vector in the present frame [m^2], and the axis of the crack, from what it was in the undeformed body. */
-LAW soft_vector soft_turned(GLOBAL const coeff *restrict gradient, int i, int j, soft_vector a)
+LAW soft_vector soft_turned(GATHER(coeff) gradient, int i, int j, soft_vector a)
 {
     return soft_add(a, REAL(0.5), soft_add(soft_times(gradient, i, a), REAL(1), soft_times(gradient, j, a)));
 }
 /* Back again, of a direction and small strains: by the transpose. */
-LAW soft_vector soft_turned_back(GLOBAL const coeff *restrict gradient, int i, int j, soft_vector a)
+LAW soft_vector soft_turned_back(GATHER(coeff) gradient, int i, int j, soft_vector a)
 {
     GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
     const soft_vector sum = {(p[0] + q[0]) * a.x + (p[3] + q[3]) * a.y + (p[6] + q[6]) * a.z,
@@ -254,11 +246,8 @@ LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft
 
 /* Before the sweeps of a step: faces that nothing holds go on opening as in the last step, so that what the sweeps
  * leave of the balance is no drag on sides that fly apart. */
-KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive,
-                       GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
-                       GLOBAL const int *restrict lead, GLOBAL const coeff *restrict gradient,
-                       GLOBAL coeff *restrict crack)
+KERNEL void soft_coast(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(coeff) alive, OWN(int) n_open,
+                       OWN(int) open, OWN(int) lead, GATHER(coeff) gradient, SCATTER(coeff) crack)
 {
     FOR_EACH_ITEM(e, n) {
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
@@ -289,17 +278,12 @@ KERNEL void soft_coast(int n, GLOBAL const int *restrict row_start, GLOBAL const
  * step; only the last one wears the cohesion, what went too far before comes back for nothing. A face that would close
  * further than shut only slides. */
 KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff friction, coeff retention, coeff release,
-                      GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                      GLOBAL const int *restrict twin, GLOBAL const coeff *restrict alive,
-                      GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
-                      GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack, GLOBAL const coeff *restrict area,
-                      GLOBAL const coeff *restrict ratio, GLOBAL const coeff *restrict inv_shape,
-                      GLOBAL const coeff *restrict inv_volume, GLOBAL const coeff *restrict plane,
-                      GLOBAL const coeff *restrict shear, GLOBAL const coeff *restrict reach, coeff k_one,
-                      coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                      GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                      GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux,
-                      GLOBAL const coeff *restrict bond_part)
+                      OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(coeff) alive, OWN(int) n_open,
+                      OWN(int) open, OWN(int) lead, SCATTER(coeff) crack, OWN(coeff) area, OWN(coeff) ratio,
+                      GATHER(coeff) inv_shape, GATHER(coeff) inv_volume, GATHER(coeff) plane, GATHER(coeff) shear,
+                      GATHER(coeff) reach, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                      GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
+                      GATHER(coeff) flux, GATHER(coeff) bond_part)
 {
     FOR_EACH_ITEM(e, n) {
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
@@ -377,16 +361,12 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
  * release: gap over the length of the bond from which on sides that carry pushes along the crack, more than a tenth of
  * what they held at the onset, stand clear; a fifth of it where they do not: opened by that, the two cells only hinder
  * each other's turning. */
-KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restrict row_start,
-                         GLOBAL const int *restrict neighbour, GLOBAL const int *restrict twin,
-                         GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
-                         GLOBAL int *restrict open, GLOBAL const int *restrict lead, GLOBAL coeff *restrict crack,
-                         GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
-                         coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                         GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient,
-                         GLOBAL const coeff *restrict stress, GLOBAL const coeff *restrict flux,
-                         GLOBAL const coeff *restrict bond_part, GLOBAL int *restrict mark,
-                         GLOBAL coeff *restrict measure, GLOBAL int *restrict touched, GLOBAL state *restrict found)
+KERNEL void soft_measure(int n, int book, coeff release, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin,
+                         OWN(coeff) alive, OWN(int) n_open, SCATTER(int) open, OWN(int) lead, SCATTER(coeff) crack,
+                         OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                         GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient,
+                         GATHER(coeff) stress, GATHER(coeff) flux, GATHER(coeff) bond_part, SCATTER(int) mark,
+                         SCATTER(coeff) measure, SCATTER(int) touched, PUT(state) found)
 {
     FOR_EACH_ITEM(e, n) {
         int count = 0;
@@ -454,12 +434,9 @@ KERNEL void soft_measure(int n, int book, coeff release, GLOBAL const int *restr
 
 /* Each element's half of what its open bonds booked, rubbed [n] what broken ones do to each other; bonds whose cohesion
  * ended are broken from then on, though their sides still bear on each other. */
-KERNEL void soft_book(int n, int step, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
-                      GLOBAL const int *restrict n_open, GLOBAL const int *restrict open,
-                      GLOBAL const coeff *restrict crack, GLOBAL int *restrict break_step,
-                      GLOBAL int *restrict break_mode, GLOBAL coeff *restrict break_stress,
-                      GLOBAL coeff *restrict break_energy, GLOBAL state *restrict lost, GLOBAL state *restrict rubbed,
-                      GLOBAL state *restrict broken)
+KERNEL void soft_book(int n, int step, OWN(int) row_start, OWN(coeff) alive, OWN(int) n_open, OWN(int) open,
+                      OWN(coeff) crack, UPDATE(int) break_step, PUT(int) break_mode, PUT(coeff) break_stress,
+                      PUT(coeff) break_energy, UPDATE(state) lost, UPDATE(state) rubbed, UPDATE(state) broken)
 {
     FOR_EACH_ITEM(e, n) {
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
@@ -481,13 +458,10 @@ KERNEL void soft_book(int n, int step, GLOBAL const int *restrict row_start, GLO
 
 /* After dlsm_energy: the bonds' energy of J - w in place of that of J, and what the cohesion holds; half to each side
  * [J] [n]. */
-KERNEL void soft_energy(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                        GLOBAL const coeff *restrict alive, GLOBAL const int *restrict n_open,
-                        GLOBAL const int *restrict open, GLOBAL const coeff *restrict crack,
-                        GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio,
-                        GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict gradient, coeff k_one,
-                        coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                        GLOBAL const coeff *restrict ell_of, GLOBAL state *restrict stabilisation)
+KERNEL void soft_energy(int n, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(int) n_open, OWN(int) open,
+                        OWN(coeff) crack, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
+                        GATHER(coeff) gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                        GATHER(coeff) modulus, GATHER(coeff) ell_of, UPDATE(state) stabilisation)
 {
     FOR_EACH_ITEM(e, n) {
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
@@ -526,9 +500,8 @@ KERNEL void soft_energy(int n, GLOBAL const int *restrict row_start, GLOBAL cons
 
 /* Bonds of the listed elements that broke at the end of their cohesion, after cells_share: the energy their openings
  * took is theirs too [J]. */
-KERNEL void soft_settle(int n, int step, GLOBAL const int *restrict list, GLOBAL const int *restrict row_start,
-                        GLOBAL const int *restrict break_step, GLOBAL const int *restrict open,
-                        GLOBAL const coeff *restrict crack, GLOBAL coeff *restrict break_energy)
+KERNEL void soft_settle(int n, int step, OWN(int) list, OWN(int) row_start, OWN(int) break_step, OWN(int) open,
+                        OWN(coeff) crack, UPDATE(coeff) break_energy)
 {
     FOR_EACH_ITEM(k, n) {
         const int e = list[k];

@@ -34,15 +34,11 @@ LAW coeff soft_edge(coeff least, soft_vector uneven, soft_vector force, soft_vec
  * is below screen * limit of their weakest bond do not look: the largest principal value is not above the Frobenius
  * norm; shear_least: norm below which no face slides [Pa]. found [n]. */
 KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int shears, coeff slope, coeff shear_least,
-                       GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const int *restrict n_open, GLOBAL const coeff *restrict area,
-                       GLOBAL const coeff *restrict ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                       GLOBAL const coeff *restrict modulus, GLOBAL const state *restrict displacement,
-                       GLOBAL const coeff *restrict gradient, GLOBAL const coeff *restrict stress,
-                       GLOBAL const coeff *restrict flux, GLOBAL const coeff *restrict bond_part,
-                       GLOBAL const coeff *restrict least, GLOBAL const coeff *restrict limit,
-                       GLOBAL const coeff *restrict shear_limit, GLOBAL int *restrict mark,
-                       GLOBAL coeff *restrict measure, GLOBAL coeff *restrict crack, GLOBAL state *restrict found)
+                       OWN(int) row_start, OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio,
+                       coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GATHER(coeff) modulus,
+                       GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) flux,
+                       GATHER(coeff) bond_part, OWN(coeff) least, OWN(coeff) limit, OWN(coeff) shear_limit,
+                       PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack, PUT(state) found)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL const coeff *p = stress + (brc_size)e * 9, *h = gradient + (brc_size)e * 9;
@@ -102,16 +98,12 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int she
 
 /* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to
  * break. */
-KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const int *restrict neighbour,
-                       GLOBAL const int *restrict twin, GLOBAL const int *restrict lead,
-                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict ratio, coeff k_one,
-                       coeff ell_one, coeff beta, coeff one_plus_tau, GLOBAL const coeff *restrict modulus,
-                       GLOBAL const state *restrict displacement, GLOBAL const coeff *restrict flux,
-                       GLOBAL const coeff *restrict bond_part, GLOBAL const coeff *restrict gradient,
-                       GLOBAL const coeff *restrict stress, coeff friction, GLOBAL const coeff *restrict shear_energy,
-                       GLOBAL int *restrict mark, GLOBAL coeff *restrict measure, GLOBAL coeff *restrict crack,
-                       GLOBAL coeff *restrict limit, GLOBAL int *restrict open, GLOBAL int *restrict touched,
-                       GLOBAL state *restrict found)
+KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(int) lead, OWN(coeff) area,
+                       OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                       GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
+                       GATHER(coeff) gradient, GATHER(coeff) stress, coeff friction, OWN(coeff) shear_energy,
+                       SCATTER(int) mark, SCATTER(coeff) measure, SCATTER(coeff) crack, SCATTER(coeff) limit,
+                       SCATTER(int) open, SCATTER(int) touched, PUT(state) found)
 {
     FOR_EACH_ITEM(e, n) {
         int breaks = 0;
@@ -167,10 +159,8 @@ KERNEL void soft_begin(int n, GLOBAL const int *restrict row_start, GLOBAL const
 }
 
 /* Open faces of every element, and their reach; and the weakest limit of those still whole. */
-KERNEL void soft_count(int n, GLOBAL const int *restrict row_start, GLOBAL const coeff *restrict alive,
-                       GLOBAL const int *restrict open, GLOBAL const coeff *restrict limit,
-                       GLOBAL const coeff *restrict area, GLOBAL const coeff *restrict inv_shape,
-                       GLOBAL int *restrict n_open, GLOBAL coeff *restrict reach, GLOBAL coeff *restrict least)
+KERNEL void soft_count(int n, OWN(int) row_start, OWN(coeff) alive, OWN(int) open, OWN(coeff) limit, OWN(coeff) area,
+                       OWN(coeff) inv_shape, PUT(int) n_open, PUT(coeff) reach, PUT(coeff) least)
 {
     FOR_EACH_ITEM(e, n) {
         int count = 0;

@@ -7,28 +7,25 @@
  * by a prescribed force; 0 for strikers that stand still or are driven. push [n][3]: that force, on the mass centre,
  * not in load; read of pushed ones only. moved [n][6]: how far each moved and turned since the last booking. */
 
-LAW svec3 striker_vec(GLOBAL const state *restrict p, int at) { return (svec3){p[at], p[at + 1], p[at + 2]}; }
-LAW ssym3 striker_inertia(GLOBAL const state *restrict p, int i)
+LAW svec3 striker_vec(OWN(state) p, int at) { return (svec3){p[at], p[at + 1], p[at + 2]}; }
+LAW ssym3 striker_inertia(OWN(state) p, int i)
 {
     return (ssym3){p[6 * i], p[6 * i + 1], p[6 * i + 2], p[6 * i + 3], p[6 * i + 4], p[6 * i + 5]};
 }
-LAW squat striker_quat(GLOBAL const state *restrict p, int i)
-{
-    return (squat){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
-}
-LAW void striker_put(GLOBAL state *restrict p, int at, svec3 a)
+LAW squat striker_quat(OWN(state) p, int i) { return (squat){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]}; }
+LAW void striker_put(PUT(state) p, int at, svec3 a)
 {
     p[at] = a.x;
     p[at + 1] = a.y;
     p[at + 2] = a.z;
 }
-LAW void striker_add(GLOBAL state *restrict p, int at, svec3 a)
+LAW void striker_add(UPDATE(state) p, int at, svec3 a)
 {
     p[at] += a.x;
     p[at + 1] += a.y;
     p[at + 2] += a.z;
 }
-LAW void striker_put_pose(GLOBAL state *restrict pose, GLOBAL state *restrict orientation, int i, svec3 place, squat q)
+LAW void striker_put_pose(PUT(state) pose, PUT(state) orientation, int i, svec3 place, squat q)
 {
     const smat3 r = squat_matrix(q);
     orientation[4 * i] = q.w;
@@ -44,7 +41,7 @@ LAW void striker_put_pose(GLOBAL state *restrict pose, GLOBAL state *restrict or
 LAW state striker_free(int freedom, int bit) { return freedom & bit ? STATE(1) : STATE(0); }
 
 /* What moves the mass centre of a free striker but gravity. */
-LAW svec3 striker_force(GLOBAL const state *restrict load, GLOBAL const state *restrict push, int bits, int i)
+LAW svec3 striker_force(OWN(state) load, OWN(state) push, int bits, int i)
 {
     const svec3 f = striker_vec(load, 6 * i);
     return bits & 16 ? svec3_add(f, striker_vec(push, 3 * i)) : f;
@@ -54,13 +51,9 @@ LAW svec3 striker_force(GLOBAL const state *restrict load, GLOBAL const state *r
  * is (phi - 1) dt for Tchamwa-Wielgosz, whose own loss begins to be booked here (numerical 1, motion.cl), else 0. g:
  * gravity [m/s^2]. */
 KERNEL void striker_advance(int n, state kick, state drift, state extra, int numerical, state gx, state gy, state gz,
-                            GLOBAL const int *restrict freedom, GLOBAL const state *restrict mass,
-                            GLOBAL const state *restrict inertia, GLOBAL const state *restrict centre,
-                            GLOBAL const state *restrict load, GLOBAL const state *restrict push,
-                            GLOBAL state *restrict motion, GLOBAL state *restrict momentum,
-                            GLOBAL state *restrict displacement, GLOBAL state *restrict orientation,
-                            GLOBAL state *restrict striker_pose, GLOBAL state *restrict moved,
-                            GLOBAL state *restrict lost)
+                            OWN(int) freedom, OWN(state) mass, OWN(state) inertia, OWN(state) centre, OWN(state) load,
+                            OWN(state) push, UPDATE(state) motion, UPDATE(state) momentum, UPDATE(state) displacement,
+                            UPDATE(state) orientation, PUT(state) striker_pose, UPDATE(state) moved, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(i, n) {
         const int bits = freedom[i];
@@ -99,10 +92,8 @@ KERNEL void striker_advance(int n, state kick, state drift, state extra, int num
  * by t (a rotation vector) since it was put last. */
 KERNEL void striker_place(int n, int which, state ux, state uy, state uz, state qw, state qx, state qy, state qz,
                           state vx, state vy, state vz, state wx, state wy, state wz, state mx, state my, state mz,
-                          state tx, state ty, state tz, GLOBAL const state *restrict centre,
-                          GLOBAL state *restrict motion, GLOBAL state *restrict displacement,
-                          GLOBAL state *restrict orientation, GLOBAL state *restrict striker_pose,
-                          GLOBAL state *restrict moved)
+                          state tx, state ty, state tz, OWN(state) centre, PUT(state) motion, PUT(state) displacement,
+                          PUT(state) orientation, PUT(state) striker_pose, UPDATE(state) moved)
 {
     FOR_EACH_ITEM(k, n) {
         const int i = which + k;
@@ -118,7 +109,7 @@ KERNEL void striker_place(int n, int which, state ux, state uy, state uz, state 
 }
 
 /* The prescribed force on striker `which`, from here on [N]. */
-KERNEL void striker_push(int n, int which, state fx, state fy, state fz, GLOBAL state *restrict push)
+KERNEL void striker_push(int n, int which, state fx, state fy, state fz, PUT(state) push)
 {
     FOR_EACH_ITEM(k, n) striker_put(push, 3 * (which + k), (svec3){fx, fy, fz});
 }
@@ -127,11 +118,9 @@ KERNEL void striker_push(int n, int which, state fx, state fy, state fz, GLOBAL 
  * the trapezoidal rule as impose_book (motion.cl), and so do prescribed forces on free ones, push . way; free ones end
  * the booking of the integrator's own loss (numerical 1). g: gravity. book: 0 nothing; 1 add; 2 start here. last
  * [n][6]: the load at the last booking; pushed [n][3]: the push then. */
-KERNEL void striker_book(int n, int book, int numerical, state gx, state gy, state gz,
-                         GLOBAL const int *restrict freedom, GLOBAL const state *restrict mass,
-                         GLOBAL const state *restrict load, GLOBAL const state *restrict push,
-                         GLOBAL state *restrict moved, GLOBAL state *restrict last, GLOBAL state *restrict pushed,
-                         GLOBAL state *restrict work, GLOBAL state *restrict lost)
+KERNEL void striker_book(int n, int book, int numerical, state gx, state gy, state gz, OWN(int) freedom,
+                         OWN(state) mass, OWN(state) load, OWN(state) push, UPDATE(state) moved, UPDATE(state) last,
+                         UPDATE(state) pushed, UPDATE(state) work, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(i, n) {
         if (book) {

@@ -146,10 +146,10 @@ LAW void lane_pack(GLOBAL int *restrict to, lane_int keep, lane_int x)
 #else
     int n = 0;
     if (!LANE_ANY(keep)) return;
-#define PUT(l)                                                                                                         \
+#define PUT_LANE(l)                                                                                                    \
     if (LANE_ITEM(keep, l)) to[n++] = LANE_ITEM(x, l);
-    LANE_EACH(PUT)
-#undef PUT
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
 #endif
 }
 LAW int lane_count(lane_int keep)
@@ -171,9 +171,9 @@ LAW lane_int lane_rank(lane_int keep)
 #else
     int before = 0;
     lane_int rank = keep;
-#define PUT(l) LANE_ITEM(rank, l) = before, before -= LANE_ITEM(keep, l);
-    LANE_EACH(PUT)
-#undef PUT
+#define PUT_LANE(l) LANE_ITEM(rank, l) = before, before -= LANE_ITEM(keep, l);
+    LANE_EACH(PUT_LANE)
+#undef PUT_LANE
     return rank;
 #endif
 }

@@ -1,33 +1,31 @@
 /* Vectors of state numbers for the static solver and the power iteration. Sums are taken over fixed blocks of 1024
  * numbers, in order, so that they do not depend on the number of threads. */
 
-KERNEL void vector_axpy(int n, state a, GLOBAL const state *restrict x, GLOBAL state *restrict y)
+KERNEL void vector_axpy(int n, state a, OWN(state) x, UPDATE(state) y)
 {
     FOR_EACH_ITEM(i, n) { y[i] += a * x[i]; }
 }
 
 /* y = x */
-KERNEL void vector_copy(int n, GLOBAL const state *restrict x, GLOBAL state *restrict y)
+KERNEL void vector_copy(int n, OWN(state) x, PUT(state) y)
 {
     FOR_EACH_ITEM(i, n) { y[i] = x[i]; }
 }
 
 /* y[i] = x[index[i]] */
-KERNEL void vector_gather(int n, GLOBAL const int *restrict index, GLOBAL const state *restrict x,
-                          GLOBAL state *restrict y)
+KERNEL void vector_gather(int n, OWN(int) index, GATHER(state) x, PUT(state) y)
 {
     FOR_EACH_ITEM(i, n) { y[i] = x[index[i]]; }
 }
 
 /* y = x + a y */
-KERNEL void vector_xpay(int n, state a, GLOBAL const state *restrict x, GLOBAL state *restrict y)
+KERNEL void vector_xpay(int n, state a, OWN(state) x, UPDATE(state) y)
 {
     FOR_EACH_ITEM(i, n) { y[i] = x[i] + a * y[i]; }
 }
 
 /* partial[b] = sum of x y over block b of n numbers in all. */
-KERNEL void vector_dot(int n_blocks, int n, GLOBAL const state *restrict x, GLOBAL const state *restrict y,
-                       GLOBAL state *restrict partial)
+KERNEL void vector_dot(int n_blocks, int n, OWN(state) x, OWN(state) y, PUT(state) partial)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
@@ -38,7 +36,7 @@ KERNEL void vector_dot(int n_blocks, int n, GLOBAL const state *restrict x, GLOB
 }
 
 /* partial[b] = sum of x over block b. */
-KERNEL void vector_sum(int n_blocks, int n, GLOBAL const state *restrict x, GLOBAL state *restrict partial)
+KERNEL void vector_sum(int n_blocks, int n, OWN(state) x, PUT(state) partial)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
@@ -49,8 +47,7 @@ KERNEL void vector_sum(int n_blocks, int n, GLOBAL const state *restrict x, GLOB
 }
 
 /* z = P r with a symmetric 3 x 3 block (xx yy zz yz xz xy) per element. */
-KERNEL void block_precondition(int n, GLOBAL const state *restrict block, GLOBAL const state *restrict r,
-                               GLOBAL state *restrict z)
+KERNEL void block_precondition(int n, OWN(state) block, OWN(state) r, PUT(state) z)
 {
     FOR_EACH_ITEM(e, n) {
         GLOBAL const state *p = block + (brc_size)e * 6;
@@ -62,7 +59,7 @@ KERNEL void block_precondition(int n, GLOBAL const state *restrict block, GLOBAL
 }
 
 /* v /= m, element by element: M^-1 of a force. */
-KERNEL void divide_by_mass(int n, GLOBAL const state *restrict mass, GLOBAL state *restrict vector)
+KERNEL void divide_by_mass(int n, OWN(state) mass, UPDATE(state) vector)
 {
     FOR_EACH_ITEM(e, n) {
         for (int c = 0; c < 3; ++c) vector[(brc_size)e * 3 + c] /= mass[e];
