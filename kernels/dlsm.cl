@@ -91,7 +91,8 @@ KERNEL void dlsm_stress_listed(int n_items, int n, OWN(int) list, OWN(int) row_s
 LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums sums, OWN(int) neighbour,
                                           OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
                                           GATHER(coeff) gradient, GATHER(coeff) modulus, GATHER(coeff) ell_of,
-                                          state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite, int plain)
+                                          state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite,
+                                          int plain)
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);

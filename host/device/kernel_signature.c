@@ -17,8 +17,8 @@ static char letter_of(const char *from, const char *to)
     static const struct {
         const char *word;
         char letter;
-    } words[] = {{"OWN", 'b'},   {"GATHER", 'b'}, {"PUT", 'b'},   {"int", 'i'},
-                 {"state", 's'}, {"coeff", 'c'},  {"double", 'd'}};
+    } words[] = {{"OWN", 'b'}, {"GATHER", 'b'}, {"PUT", 'b'},   {"UPDATE", 'b'}, {"SCATTER", 'b'},
+                 {"int", 'i'}, {"state", 's'},  {"coeff", 'c'}, {"double", 'd'}};
     if (memchr(from, '*', (size_t)(to - from))) return 'b';
     if (to - from > 6 && strncmp(from, "const ", 6) == 0) from += 6;
     for (size_t k = 0; k < sizeof words / sizeof words[0]; ++k) {
