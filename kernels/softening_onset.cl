@@ -29,6 +29,16 @@ LAW coeff soft_edge(coeff least, soft_vector uneven, soft_vector force, soft_vec
            (across > 0 ? across : REAL(0));
 }
 
+/* 0: the bond stays shut, known without principal values: none of its stress is above the limit, nor its edge's, and no
+ * plane slides (sums of Mohr and Coulomb, on the face or any plane, are at most 2 (1 + slope) times the norm). edge: at
+ * least what soft_edge finds; limit, shear_limit: as much of the bond's as counts [Pa]; shear_limit 0: none slides. */
+LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shear_limit, coeff slope)
+{
+    const coeff half = REAL(0.5) * SOFT_ABS(shear_limit);
+    return !(edge < REAL(0.999) * limit) ||
+           failure_possible(stress, (failure_limits){limit, 0, half}, (failure_shear){0, slope, slope});
+}
+
 /* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and
  * axis is at least steepest) are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress
  * is below screen * limit of their weakest bond do not look: the largest principal value is not above the Frobenius
@@ -58,14 +68,20 @@ KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int she
             const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
             const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
             const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
-            const failure_principal largest = failure_principal_of(soft_stress(mean, traction, normal));
+            const failure_stress whole = soft_stress(mean, traction, normal);
+            const soft_vector uneven = n_open[e] && n_open[j]
+                                           ? soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau)
+                                           : (soft_vector){0, 0, 0};
+            const coeff edge_most =
+                n_open[e] && n_open[j] ? soft_edge(0, uneven, force, normal, s, ratio[entry]) : REAL(0);
+            if (!soft_possible(whole, edge_most, share * limit[entry], shears ? share * shear_limit[entry] : REAL(0),
+                               slope))
+                continue;
+            const failure_principal largest = failure_principal_of(whole);
             const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
             const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
             const coeff edge =
-                n_open[e] && n_open[j]
-                    ? soft_edge(largest.third, soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau),
-                                force, normal, s, ratio[entry])
-                    : REAL(0);
+                n_open[e] && n_open[j] ? soft_edge(largest.third, uneven, force, normal, s, ratio[entry]) : REAL(0);
             const int bends = edge > largest.first;
             const coeff worst = bends ? edge : largest.first;
             if (shears) {
