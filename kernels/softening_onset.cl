@@ -34,9 +34,9 @@ LAW coeff soft_edge(coeff least, soft_vector uneven, soft_vector force, soft_vec
  * least what soft_edge finds; limit, shear_limit: as much of the bond's as counts [Pa]; shear_limit 0: none slides. */
 LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shear_limit, coeff slope)
 {
-    const coeff half = REAL(0.5) * SOFT_ABS(shear_limit);
+    const coeff shear = REAL(0.5) * SOFT_ABS(shear_limit);
     return !(edge < REAL(0.999) * limit) ||
-           failure_possible(stress, (failure_limits){limit, 0, half}, (failure_shear){0, slope, slope});
+           failure_possible(stress, (failure_limits){limit, 0, shear}, (failure_shear){0, slope, slope});
 }
 
 /* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and
