@@ -51,6 +51,13 @@ if(NOT OpenMP_FOUND)
     string(APPEND brc_missing_packages " libomp-14-dev")
 endif()
 
+# MPI, for breccia-mpi alone: taken where it is found, needed where it is asked for.
+find_package(MPI COMPONENTS C QUIET)
+if(BRC_MPI AND NOT MPI_C_FOUND)
+    message(STATUS "missing: MPI for C (Debian package libopenmpi-dev)")
+    string(APPEND brc_missing_packages " libopenmpi-dev")
+endif()
+
 if(BRC_TESTS)
     brc_dependency(cmocka cmocka.h cmocka libcmocka-dev)
     find_path(BRC_ccd_INCLUDE ccd/ccd.h) # an oracle; the test that asks it is skipped without it

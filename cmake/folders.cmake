@@ -1,9 +1,9 @@
 # brc_folder(<name> <folder> <libraries it stands on...>): the static library brc_<name> of all C (and C++) files in the
-# folder and the folders inside it, but for main.c and what host/device compiles in ways of its own. A folder without
+# folder and the folders inside it, but for main.c, the MPI of ranks and what host/device compiles in ways of its own. A folder without
 # sources yet gives an empty interface target, so that the rest still builds.
 function(brc_folder_sources out folder)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.c ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
-    list(FILTER sources EXCLUDE REGEX "/main\\.c$|/device/(instance|target)/")
+    list(FILTER sources EXCLUDE REGEX "/main\\.c$|/ranks_mpi\\.c$|/device/(instance|target)/")
     set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 

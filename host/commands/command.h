@@ -41,6 +41,7 @@ typedef struct brc_command {
     const char *details;  /* more lines of its own help, or "" */
     const brc_option *options;
     int n_options;
+    bool ranks; /* may be started on several ranks (ranks.h) */
     brc_status (*run)(const brc_session *session, const brc_arguments *arguments);
 } brc_command;
 

@@ -2,8 +2,10 @@
  * turns the status into an exit code. The only place that owns process-wide state. */
 #include "command.h"
 #include "../base/log.h"
+#include "../base/ranks.h"
 #include "../base/version.h"
 #include <malloc.h>
+#include <omp.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +17,7 @@ static brc_simulation *volatile running_simulation;
 static void on_signal(int number)
 {
     brc_simulation *simulation = running_simulation;
+    if (brc_ranks_signal_is_loss()) _exit(brc_status_exit_code(BRC_INTERRUPTED));
     /* The first signal asks for an orderly end; a second one, or one while nothing runs, ends the process at once. */
     signal(number, SIG_DFL);
     if (simulation)
@@ -40,6 +43,9 @@ static brc_status dispatch(const brc_session *session, int argc, const char *con
     }
     const brc_command *command = brc_command_find(session->context, argv[1]);
     if (!command) return BRC_BAD_INPUT;
+    if (brc_ranks_count() > 1 && !command->ranks)
+        return BRC_FAIL(session->context, BRC_BAD_INPUT, "breccia %s does not run on %d ranks; start one",
+                        command->name, (int)brc_ranks_count());
     brc_arguments arguments;
     BRC_TRY(brc_arguments_parse(session->context, command, argc - 2, argv + 2, &arguments));
     if (arguments.help) {
@@ -75,6 +81,15 @@ static void return_large_blocks(void)
     (void)mallopt(M_MMAP_THRESHOLD, LARGE);
 }
 
+/* Ranks of one machine share its cores, unless the user or the launcher has dealt them out. */
+static void share_cores(void)
+{
+    const brc_ranks_place place = brc_ranks_here();
+    const int cores = omp_get_num_procs();
+    if (place.local_count == 1 || getenv("OMP_NUM_THREADS") || cores < sysconf(_SC_NPROCESSORS_ONLN)) return;
+    omp_set_num_threads(cores > place.local_count ? cores / place.local_count : 1);
+}
+
 int main(int argc, char **argv)
 {
     choose_threads(argv);
@@ -88,13 +103,19 @@ int main(int argc, char **argv)
     signal(SIGTERM, on_signal);
     signal(SIGXFSZ, SIG_IGN); /* a file-size limit is then a refused write with a sentence */
     const brc_session session = {context, set_running};
-    brc_status status = dispatch(&session, argc, (const char *const *)argv);
+    bool speaks = true;
+    brc_status status = brc_ranks_start(context, &argc, &argv);
+    if (brc_ranks_count() > 1) signal(SIGUSR2, on_signal); /* the one that mpirun hands on to the ranks */
+    share_cores();
+    if (status == BRC_OK) status = dispatch(&session, argc, (const char *const *)argv);
     if (fflush(stdout) != 0 && status == BRC_OK)
         status = BRC_FAIL(context, BRC_FILE_FAILED, "standard output cannot be written (closed, or the disk is full)");
-    if (status != BRC_OK) {
+    status = brc_ranks_end(context, status, &speaks);
+    if (status != BRC_OK && speaks) {
         const char *message = brc_context_message(context);
         fprintf(stderr, "%s\n", *message ? message : brc_status_text(status));
     }
     brc_context_free(&context);
+    brc_ranks_leave(brc_status_exit_code(status));
     return brc_status_exit_code(status);
 }

@@ -26,6 +26,10 @@ expect 2 "usage: quickstart run SCENE" run
 expect 2 "usage: quickstart run SCENE" run -o somewhere
 expect 2 "usage: quickstart run SCENE" build something
 expect 2 "usage: quickstart run SCENE" docs something
+expect 2 "usage: quickstart run SCENE" mpi run missing.yaml
+expect 2 "usage: quickstart run SCENE" mpi 0 run missing.yaml
+expect 2 "usage: quickstart run SCENE" mpi 2 build
+expect 2 "no scene file missing.yaml" mpi 2 run missing.yaml
 expect 2 "no scene file missing.yaml" run missing.yaml
 expect 0 "usage: quickstart run SCENE" --help
 [ -z "$(ls -A "$folder")" ] || { echo "something was left in the folder it was called from"; failures=$((failures + 1)); }
@@ -39,6 +43,7 @@ printf '#!/bin/sh\necho "install ok installed"\n' >"$folder/tools/dpkg-query"
 printf '#!/bin/sh\necho "$(basename "$0") $*" >>"%s"\n' "$asked" >"$folder/tools/cmake"
 cp "$folder/tools/cmake" "$folder/tools/ctest"
 cp "$folder/tools/cmake" "$folder/tools/apt-get"
+cp "$folder/tools/cmake" "$folder/tools/mpirun"
 chmod +x "$folder/tools"/*
 export PATH="$folder/tools:$PATH"
 
@@ -60,7 +65,8 @@ asks() { # asks YES NO ARGUMENTS...: what the tools are asked for has YES (words
 
 asks '*BRC_LAST_PRECISION=0*--target breccia *' brc_program run "$folder/clone/scene.yaml"
 asks '*BRC_LAST_PRECISION=2*--target breccia *' brc_program run "$folder/clone/scene.yaml" --precision mixed
-asks '*--target brc_program *' "LAST_PRECISION=2" run "$folder/clone/scene.yaml" --device target
+asks '*--target breccia brc_program *' "LAST_PRECISION=2" run "$folder/clone/scene.yaml" --device target
+asks '*--preset mpi *--target breccia-mpi *mpirun *-n 3 *breccia-mpi run *scene.yaml *' 'preset release' mpi 3 run "$folder/clone/scene.yaml"
 levels=
 if [ "$(uname -m)" = x86_64 ] && grep -q '^flags.* avx2 ' /proc/cpuinfo; then
     levels='-DBRC_ISA_LEVELS=v2;v'

@@ -1,0 +1,58 @@
+"""breccia-mpi: one rank has the bytes of the plain program, several answer once, and what cannot run on them is refused."""
+import filecmp
+import os
+import subprocess
+import sys
+import tempfile
+import under
+
+PROGRAM = under.need("bin/breccia-mpi")
+PLAIN = os.environ["BRC_PROGRAM"]
+SCENE = os.path.join(os.environ["BRC_SOURCE_DIR"], "examples/beams-fracture/scene.yaml")
+SMALL = ["--set", "bodies.0.fill.packing.elements=500", "--threads", "1"]
+FAILURES = []
+
+
+def expect(condition, sentence):
+    if not condition:
+        FAILURES.append(sentence)
+
+
+def ranks(n, *arguments):
+    process = under.start(n, [PROGRAM, *arguments])
+    output, errors = process.communicate(timeout=300)
+    return process.returncode, output, errors
+
+
+def frames(folder):
+    return sorted(os.path.join("frames", name) for name in os.listdir(os.path.join(folder, "frames")))
+
+
+def one_rank(folder):
+    plain, one = os.path.join(folder, "plain"), os.path.join(folder, "one")
+    subprocess.run([PLAIN, "run", SCENE, "-o", plain, *SMALL], check=True, capture_output=True)
+    code, _, errors = ranks(1, "run", SCENE, "-o", one, *SMALL)
+    expect(code == 0, f"one rank: exit code {code}: {errors}")
+    files = ["histories.csv", "cracks.csv", "fragments.csv"] + frames(plain)
+    expect(frames(one) == frames(plain) and len(files) > 5, f"one rank wrote other frames: {frames(one)}")
+    _, different, missing = filecmp.cmpfiles(plain, one, files, shallow=False)
+    expect(not different and not missing, f"one rank: different {different}, missing {missing}")
+
+
+def several(folder):
+    code, output, errors = ranks(3, "--version")
+    expect(code == 0 and output.count("breccia ") == 1 and not errors, f"version: {code} {output} {errors}")
+    code, output, errors = ranks(3, "calibrate", SCENE)
+    expect(code == 2 and not output and errors == "rank 0: breccia calibrate does not run on 3 ranks; start one\n",
+           f"a command that does not run on ranks: {code} {output} {errors}")
+    code, output, errors = ranks(2, "run", SCENE, "-o", os.path.join(folder, "two"), *SMALL)
+    expect(code == 2 and errors.count("\n") == 1 and "does not run on 2 ranks" in errors, f"run: {code} {output} {errors}")
+    expect(not os.path.exists(os.path.join(folder, "two")), "a refused run has made its folder")
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    one_rank(temporary)
+    several(temporary)
+for failure in FAILURES:
+    print("program: " + failure)
+sys.exit(1 if FAILURES else 0)
