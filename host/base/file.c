@@ -1,6 +1,7 @@
 /* Files that survive a crash: written aside, fsynced, renamed, and the folder fsynced so that the name is safe too. */
 #include "file.h"
 #include "memory.h"
+#include "ranks.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -13,6 +14,11 @@ static brc_status copy_bytes(brc_context *context, const char *text, size_t leng
     BRC_TRY(brc_memory_allocate(context, (void **)out, (int64_t)length + 1, 1, "path"));
     memcpy(*out, text, length);
     return BRC_OK;
+}
+
+bool brc_file_writes(void)
+{
+    return brc_ranks_mine() == 0;
 }
 
 bool brc_file_exists(const char *path)
@@ -50,6 +56,7 @@ brc_status brc_file_make_folder(brc_context *context, const char *path)
 {
     char *partial = NULL;
     brc_status status = BRC_OK;
+    if (!brc_file_writes()) return BRC_OK;
     if (*path == '\0') return BRC_FAIL(context, BRC_FILE_FAILED, "cannot create a folder without a name");
     BRC_TRY(copy_bytes(context, path, strlen(path), &partial));
     for (char *slash = strchr(partial + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
@@ -103,6 +110,7 @@ brc_status brc_file_aside(brc_context *context, const char *path, char **aside)
 
 brc_status brc_file_commit(brc_context *context, const char *aside, const char *path)
 {
+    if (!brc_file_writes()) return BRC_OK;
     BRC_TRY(sync_path(context, aside, false));
     if (rename(aside, path) != 0)
         return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot rename to %s: %s", aside, path, strerror(errno));
@@ -111,7 +119,7 @@ brc_status brc_file_commit(brc_context *context, const char *aside, const char *
 
 void brc_file_discard(const char *aside)
 {
-    if (aside) unlink(aside);
+    if (aside && brc_file_writes()) unlink(aside);
 }
 
 static brc_status write_all(brc_context *context, int descriptor, const char *path, const char *data, size_t bytes)
@@ -132,6 +140,7 @@ static brc_status write_all(brc_context *context, int descriptor, const char *pa
 brc_status brc_file_write_whole(brc_context *context, const char *path, const void *data, size_t bytes)
 {
     char *aside = NULL;
+    if (!brc_file_writes()) return BRC_OK;
     BRC_TRY(brc_file_aside(context, path, &aside));
     brc_status status = BRC_OK;
     const int descriptor = open(aside, O_WRONLY | O_CREAT | O_TRUNC, 0666);
@@ -154,6 +163,7 @@ brc_status brc_file_check_place(brc_context *context, const char *path)
     struct stat information;
     char *folder = NULL;
     brc_status status = BRC_OK;
+    if (!brc_file_writes()) return BRC_OK;
     if (stat(path, &information) == 0 && S_ISDIR(information.st_mode))
         return BRC_FAIL(context, BRC_FILE_FAILED, "%s: is a folder, name a file to write", path);
     BRC_TRY(BRC_ALLOCATE(context, &folder, (int64_t)strlen(path) + 2, "path"));

@@ -1,10 +1,13 @@
-/* Files that survive a crash: written aside, fsynced, renamed. */
+/* Files that survive a crash: written aside, fsynced, renamed. Of several ranks (ranks.h) the first one writes: on the
+ * others what makes, writes, renames or removes here returns BRC_OK and does nothing. */
 #ifndef BRC_BASE_FILE_H
 #define BRC_BASE_FILE_H
 
 #include "status.h"
 #include <stdint.h>
 
+/* Is this the rank that writes? Asked by what writes files in other ways. */
+bool brc_file_writes(void);
 /* Create a folder and its parents (existing ones are fine). BRC_FILE_FAILED with path and reason. */
 brc_status brc_file_make_folder(brc_context *context, const char *path);
 /* Write `bytes` bytes to `path` so that the file is either the old one or the whole new one. */

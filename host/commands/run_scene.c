@@ -5,6 +5,7 @@
 #include "setup.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../base/ranks.h"
 #include "../output/checkpoint/checkpoint.h"
 #include "../output/checkpoint/checkpoint_identity.h"
 #include "../output/recorder.h"
@@ -140,6 +141,7 @@ brc_status brc_run_scene(brc_context *context, const brc_run_request *request, b
         BRC_TRY(request->resume ? brc_recorder_reopen(context, request->folder, start, &now.recorder)
                                 : brc_recorder_create(context, request->folder, start, &now.recorder));
     brc_status status = simulate(context, request, &now, out);
+    brc_ranks_fail(context, status);
     if (now.checkpoints) {
         const brc_checkpoint_report report = brc_checkpoints_report(now.checkpoints);
         brc_recorder_set_checkpoints(now.recorder, &report);

@@ -1,4 +1,5 @@
 #include "append.h"
+#include "../base/file.h"
 #include "../base/memory.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -9,8 +10,8 @@
 enum { PIECE_BYTES = 1 << 16 };
 
 struct brc_append {
-    char *path; /* owned, for sentences */
-    int file;
+    char *path;    /* owned, for sentences */
+    int file;      /* -1: of a rank that does not write */
     int64_t bytes; /* of whole texts in the file */
 };
 
@@ -31,8 +32,8 @@ brc_status brc_append_create(brc_context *context, const char *path, const char 
     brc_status status = BRC_OK;
     *out = NULL;
     BRC_TRY_OR(cleanup, make(context, path, &a));
-    a->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (a->file < 0) {
+    if (brc_file_writes()) a->file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (a->file < 0 && brc_file_writes()) {
         status = BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot create: %s", path, strerror(errno));
         goto cleanup;
     }
@@ -53,9 +54,11 @@ brc_status brc_append_reopen(brc_context *context, const char *path, int64_t byt
     brc_status status = BRC_OK;
     *out = NULL;
     BRC_TRY_OR(cleanup, make(context, path, &a));
-    a->file = open(path, O_WRONLY | O_CLOEXEC);
+    if (brc_file_writes()) a->file = open(path, O_WRONLY | O_CLOEXEC);
     a->bytes = bytes;
-    if (a->file < 0 || fstat(a->file, &information) != 0)
+    if (!brc_file_writes())
+        status = BRC_OK;
+    else if (a->file < 0 || fstat(a->file, &information) != 0)
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: cannot be opened to go on: %s", path, strerror(errno));
     else if (bytes < 0 || (int64_t)information.st_size < bytes)
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: has %lld bytes, the run goes on behind %lld: it was changed",
@@ -78,7 +81,7 @@ int64_t brc_append_bytes(const brc_append *a)
 brc_status brc_append_add(brc_context *context, brc_append *a, const brc_text *text)
 {
     BRC_TRY(text->status);
-    for (size_t done = 0; done < text->length;) {
+    for (size_t done = 0; a->file >= 0 && done < text->length;) {
         const ssize_t written = write(a->file, text->data + done, text->length - done);
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) {
@@ -103,13 +106,14 @@ brc_status brc_append_piece(brc_context *context, brc_append *a, brc_text *text)
 
 void brc_append_cut(brc_append *a, int64_t bytes)
 {
-    if (ftruncate(a->file, bytes) == 0) (void)lseek(a->file, bytes, SEEK_SET);
+    if (a->file >= 0 && ftruncate(a->file, bytes) == 0) (void)lseek(a->file, bytes, SEEK_SET);
     a->bytes = bytes;
 }
 
 brc_status brc_append_finish(brc_context *context, brc_append *a)
 {
-    if (fsync(a->file) == 0 || errno == EINVAL || errno == EROFS) return BRC_OK; /* some file systems cannot */
+    if (a->file < 0 || fsync(a->file) == 0 || errno == EINVAL || errno == EROFS)
+        return BRC_OK; /* some file systems cannot */
     return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot reach the disk: %s", a->path, strerror(errno));
 }
 

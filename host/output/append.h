@@ -1,5 +1,5 @@
 /* A text file that only grows: rows go to it by write(), from where the system brings them to the disk even if this
- * program is killed. */
+ * program is killed. Ranks that do not write (file.h) count the bytes alone. */
 #ifndef BRC_OUTPUT_APPEND_H
 #define BRC_OUTPUT_APPEND_H
 

@@ -22,7 +22,7 @@ static bool is_frame(const char *name, int64_t first)
 
 brc_status brc_earlier_remove_file(brc_context *context, const char *path)
 {
-    if (unlink(path) == 0 || errno == ENOENT) return BRC_OK;
+    if (!brc_file_writes() || unlink(path) == 0 || errno == ENOENT) return BRC_OK;
     return BRC_FAIL(context, BRC_FILE_FAILED, "%s: cannot remove the result of an earlier run: %s", path,
                     strerror(errno));
 }

@@ -24,13 +24,14 @@ void brc_h5_check(brc_h5 *h5, bool ok, const char *what)
 
 static brc_status open_file(brc_context *context, const char *path, bool in_memory, brc_h5 *out)
 {
-    *out = (brc_h5){.context = context, .file = H5I_INVALID_HID};
+    *out = (brc_h5){.context = context, .file = H5I_INVALID_HID, .silent = !brc_file_writes()};
     H5Eget_auto2(H5E_DEFAULT, &out->print, &out->print_data);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const int64_t length = (int64_t)strlen(path) + 1;
     out->status = brc_memory_allocate(context, (void **)&out->path, length, 1, "path");
     if (out->status != BRC_OK) goto cleanup;
     memcpy(out->path, path, (size_t)length);
+    if (out->silent) return BRC_OK;
     if (!in_memory) {
         out->status = brc_file_aside(context, path, &out->aside);
         if (out->status == BRC_OK) out->status = BRC_ALLOCATE(context, &out->disk, 1, "file driver");
@@ -119,7 +120,7 @@ static brc_status write_image(brc_h5 *h5)
 
 static brc_status commit(brc_h5 *h5, bool seal)
 {
-    if (h5->status == BRC_OK && !h5->aside) h5->status = write_image(h5);
+    if (h5->status == BRC_OK && !h5->aside && !h5->silent) h5->status = write_image(h5);
     close_all(h5);
     if (h5->status == BRC_OK && seal) h5->status = brc_seal_add(h5->context, h5->aside);
     if (h5->status == BRC_OK && h5->aside) h5->status = brc_file_commit(h5->context, h5->aside, h5->path);
@@ -139,7 +140,7 @@ brc_status brc_h5_commit_sealed(brc_h5 *h5)
 
 void brc_h5_group(brc_h5 *h5, const char *name)
 {
-    if (h5->status != BRC_OK) return;
+    if (h5->silent || h5->status != BRC_OK) return;
     const hid_t creation = H5Pcreate(H5P_GROUP_CREATE);
     H5Pset_obj_track_times(creation, false);
     const hid_t group = H5Gcreate2(h5->file, name, H5P_DEFAULT, creation, H5P_DEFAULT);
@@ -170,7 +171,7 @@ static void create_dataset(brc_h5 *h5, const char *name, hid_t type, hid_t space
 
 void brc_h5_dataset(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns, const void *data)
 {
-    if (h5->status != BRC_OK) return;
+    if (h5->silent || h5->status != BRC_OK) return;
     const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns};
     const hid_t space = H5Screate_simple(columns > 0 ? 2 : 1, size, NULL);
     create_dataset(h5, name, type, space, NULL, rows > 0 ? data : NULL);
@@ -179,7 +180,7 @@ void brc_h5_dataset(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int6
 
 void brc_h5_packed(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64_t columns)
 {
-    if (h5->status != BRC_OK) return;
+    if (h5->silent || h5->status != BRC_OK) return;
     const hsize_t size[2] = {(hsize_t)rows, (hsize_t)columns},
                   block[2] = {(hsize_t)(rows < BRC_H5_BLOCK ? rows : BRC_H5_BLOCK), (hsize_t)columns};
     const hid_t space = H5Screate_simple(columns > 0 ? 2 : 1, size, NULL);
@@ -189,7 +190,7 @@ void brc_h5_packed(brc_h5 *h5, const char *name, hid_t type, int64_t rows, int64
 
 void brc_h5_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data)
 {
-    if (h5->status != BRC_OK || n == 0) return;
+    if (h5->silent || h5->status != BRC_OK || n == 0) return;
     const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT);
     const hid_t space = H5Dget_space(dataset);
     hsize_t size[2] = {0, 0};
@@ -216,7 +217,7 @@ static hid_t text_type(const char *text, H5T_cset_t set)
 
 void brc_h5_text(brc_h5 *h5, const char *name, const char *text)
 {
-    if (h5->status != BRC_OK) return;
+    if (h5->silent || h5->status != BRC_OK) return;
     const hid_t type = text_type(text, H5T_CSET_UTF8), space = H5Screate(H5S_SCALAR);
     create_dataset(h5, name, type, space, NULL, text);
     H5Sclose(space);
@@ -225,7 +226,7 @@ void brc_h5_text(brc_h5 *h5, const char *name, const char *text)
 
 static void add_attribute(brc_h5 *h5, const char *object, const char *name, hid_t type, hid_t space, const void *value)
 {
-    if (h5->status != BRC_OK) return;
+    if (h5->silent || h5->status != BRC_OK) return;
     const hid_t attribute =
         H5Acreate_by_name(h5->file, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     brc_h5_check(h5, attribute >= 0 && H5Awrite(attribute, type, value) >= 0 && H5Aclose(attribute) >= 0, name);
@@ -262,12 +263,12 @@ void brc_h5_attribute_number(brc_h5 *h5, const char *object, const char *name, d
 
 void brc_h5_link(brc_h5 *h5, const char *name, const char *object)
 {
-    if (h5->status != BRC_OK) return;
+    if (h5->silent || h5->status != BRC_OK) return;
     brc_h5_check(h5, H5Lcreate_hard(h5->file, object, h5->file, name, H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
 }
 
 void brc_h5_external_link(brc_h5 *h5, const char *name, const char *file, const char *object)
 {
-    if (h5->status != BRC_OK) return;
+    if (h5->silent || h5->status != BRC_OK) return;
     brc_h5_check(h5, H5Lcreate_external(file, object, h5->file, name, H5P_DEFAULT, H5P_DEFAULT) >= 0, name);
 }

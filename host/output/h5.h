@@ -1,6 +1,6 @@
 /* Writing HDF5 so that a crash or a full disk loses nothing older: a file written aside, or an image in memory that is
  * written whole. Failures are kept and reported once, at the end, with the operating system's reason. Equal content
- * gives equal bytes (no times are stored). */
+ * gives equal bytes (no times are stored). On a rank that does not write (file.h) every call does nothing. */
 #ifndef BRC_OUTPUT_H5_H
 #define BRC_OUTPUT_H5_H
 
@@ -12,10 +12,11 @@
 typedef struct brc_h5 {
     brc_context *context; /* borrowed */
     char *path, *aside;   /* owned; aside NULL: an image in memory */
-    hid_t file;
-    brc_h5_disk *disk; /* owned; NULL: in memory */
-    brc_status status; /* BRC_OK, or the first failure: later calls do nothing */
-    H5E_auto2_t print; /* HDF5's own printing of errors, off while this is open */
+    hid_t file;           /* invalid on a rank that does not write */
+    bool silent;          /* such a rank */
+    brc_h5_disk *disk;    /* owned; NULL: in memory */
+    brc_status status;    /* BRC_OK, or the first failure: later calls do nothing */
+    H5E_auto2_t print;    /* HDF5's own printing of errors, off while this is open */
     void *print_data;
 } brc_h5;
 

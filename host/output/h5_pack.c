@@ -95,7 +95,7 @@ cleanup:
 void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data,
                       int n_threads)
 {
-    if (h5->status != BRC_OK || n == 0) return;
+    if (h5->silent || h5->status != BRC_OK || n == 0) return;
     const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT), space = H5Dget_space(dataset);
     hsize_t size[2] = {0, 1};
     H5Sget_simple_extent_dims(space, size, NULL);

@@ -74,7 +74,7 @@ static brc_status keep_only(brc_checkpoints *c, int64_t one, int64_t two)
         char *path = NULL;
         if (number < 0 || (whole && (number == one || number == two))) continue;
         status = brc_file_join(c->context, c->folder, entry->d_name, &path);
-        if (status == BRC_OK && unlink(path) != 0 && errno != ENOENT)
+        if (status == BRC_OK && brc_file_writes() && unlink(path) != 0 && errno != ENOENT)
             status =
                 BRC_FAIL(c->context, BRC_FILE_FAILED, "%s: cannot remove an old checkpoint: %s", path, strerror(errno));
         brc_memory_free(path);

@@ -97,6 +97,7 @@ brc_status brc_vtu_write(brc_context *context, const char *path, int64_t n_point
     brc_text head = {.context = context};
     char *aside = NULL;
     brc_status status = BRC_OK;
+    if (!brc_file_writes()) return BRC_OK;
     add_head(&head, n_points, n_cells, n_arrays, arrays);
     BRC_TRY_OR(cleanup, head.status);
     BRC_TRY_OR(cleanup, brc_file_aside(context, path, &aside));

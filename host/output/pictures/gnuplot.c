@@ -52,6 +52,7 @@ brc_status brc_gnuplot_draw(brc_context *context, brc_text *script, const char *
     *made = false;
     brc_status status = BRC_OK;
     const int64_t length = (int64_t)strlen(path) + 8;
+    if (!brc_file_writes()) return BRC_OK;
     BRC_TRY_OR(cleanup, brc_memory_allocate(context, (void **)&name, length, 1, "path"));
     snprintf(name, (size_t)length, "%s.script", path);
     BRC_TRY_OR(cleanup, brc_text_write(script, name));

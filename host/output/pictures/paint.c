@@ -137,7 +137,7 @@ static void shrink(brc_paint *paint)
 
 static void finish_layer(brc_paint *paint)
 {
-    if (paint->drawn == CAIRO_STATUS_SUCCESS) paint->drawn = cairo_status(paint->cairo);
+    if (paint->drawn == CAIRO_STATUS_SUCCESS && brc_file_writes()) paint->drawn = cairo_status(paint->cairo);
     cairo_destroy(paint->cairo);
     paint->cairo = NULL;
 }
