@@ -81,7 +81,7 @@ const brc_command *brc_command_find(brc_context *context, const char *name);
 /* Options that several commands share, for their tables. */
 #define BRC_OPTION_DEVICE                                                                                              \
     {                                                                                                                  \
-        "device", 'd', "DEVICE", false, "auto, cpu, opencl:N or target:N (default auto)"                               \
+        "device", 'd', "DEVICE", false, "auto, cpu, opencl:N, opencl:auto or target:N (default auto)"                  \
     }
 #define BRC_OPTION_PRECISION                                                                                           \
     {                                                                                                                  \

@@ -2,6 +2,7 @@
 #include "setup.h"
 #include "scene_domain.h"
 #include "../base/memory.h"
+#include "../device/device_list.h"
 #include "../solver/beam_polish.h"
 #include <math.h>
 #include <string.h>
@@ -45,6 +46,7 @@ brc_status brc_setup_simulations(brc_context *context, const brc_device_request 
         brc_device_request own = *request;
         own.many_materials = brc_simulation_needs_many_materials(scene, setup->domain[k]);
         BRC_TRY(brc_device_open(context, &own, &setup->device[k]));
+        if (k == 0) BRC_TRY(brc_device_log_places(context, setup->device[k]));
         BRC_TRY(brc_simulation_create(context, scene, setup->domain[k], setup->device[k], &setup->simulation[k]));
     }
     setup->assembly = brc_assembly_make(setup->split->scene, setup->split, setup->n, setup->simulation);

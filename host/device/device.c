@@ -1,7 +1,9 @@
 /* What all backends share: checks, sentences, counting, and finding each kernel once. */
 #include "device_internal.h"
+#include "device_list.h"
 #include "kernel_signature.h"
 #include "../base/memory.h"
+#include "../base/ranks.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,10 +42,11 @@ static const brc_backend *backend_of(brc_device_kind kind)
     }
 }
 
-/* Does the selector have one of the forms "auto", "cpu", "opencl:N", "target:N"? */
+/* Does the selector have one of the forms "auto", "cpu", "opencl:N", "opencl:auto", "target:N"? */
 static bool selector_parses(const char *selector)
 {
-    if (strcmp(selector, "auto") == 0 || strcmp(selector, "cpu") == 0) return true;
+    if (strcmp(selector, "auto") == 0 || strcmp(selector, "cpu") == 0 || strcmp(selector, "opencl:auto") == 0)
+        return true;
     const char *digits =
         strncmp(selector, "opencl:", 7) == 0 || strncmp(selector, "target:", 7) == 0 ? selector + 7 : "";
     const size_t n = strspn(digits, "0123456789");
@@ -74,6 +77,10 @@ static const brc_device_info *find_device(const brc_device_list *list, const cha
 {
     char why[512];
     if (strcmp(selector, "auto") == 0) return &list->items[brc_device_list_choose(list, precision, why, sizeof why)];
+    if (strcmp(selector, "opencl:auto") == 0) {
+        const int dealt = brc_device_list_deal(list, precision, brc_ranks_here().local);
+        return dealt < 0 ? NULL : &list->items[dealt];
+    }
     for (int d = 0; d < list->n; ++d)
         if (strcmp(list->items[d].selector, selector) == 0) return &list->items[d];
     return NULL;
@@ -101,7 +108,8 @@ static brc_status select_device(brc_context *context, const brc_device_request *
     const brc_device_info *const info = kinds ? find_device(list, selector, request->precision) : NULL;
     if (!kinds)
         status = BRC_FAIL(context, BRC_BAD_INPUT,
-                          "device '%.64s' is not a selector: expected auto, cpu, opencl:N or target:N; usable here: %s",
+                          "device '%.64s' is not a selector: expected auto, cpu, opencl:N, opencl:auto or target:N; "
+                          "usable here: %s",
                           selector, there);
     else if (info)
         status = BRC_FAIL(context, BRC_BAD_INPUT, "device %s (%s) cannot be used: %s; usable here: %s", selector,

@@ -50,7 +50,8 @@ typedef struct brc_buffer brc_buffer;
 
 /* What is compiled or chosen for a run. */
 typedef struct brc_device_request {
-    const char *selector; /* "auto", "cpu", "opencl:N", "target:N"; borrowed during the call */
+    const char *selector; /* "auto", "cpu", "opencl:N", "opencl:auto" (of several ranks each takes one in turn),
+                             "target:N"; borrowed during the call */
     brc_precision precision;
     bool many_materials;       /* kernels gather material constants per element instead of taking them as scalars */
     int n_threads;             /* cpu: 0 = as OpenMP decides */

@@ -1,7 +1,9 @@
 /* What can run here, and which one `auto` takes. */
 #include "device_list.h"
 #include "device_internal.h"
+#include "../base/log.h"
 #include "../base/memory.h"
+#include "../base/ranks.h"
 #include <stdio.h>
 
 brc_status brc_device_list_add(brc_context *context, brc_device_list *list, const brc_device_info *info)
@@ -34,6 +36,47 @@ int brc_device_list_choose(const brc_device_list *list, brc_precision precision,
         n_cpu_drivers ? "; OpenCL drivers that run on the CPU are slower than the cpu backend and taken only by name"
                       : "");
     return cpu;
+}
+
+int brc_device_list_deal(const brc_device_list *list, brc_precision precision, int32_t local)
+{
+    for (int gpus = 1; gpus >= 0; --gpus) {
+        int n = 0, at = 0;
+        for (int pass = 0; pass < 2; ++pass)
+            for (int d = 0; d < list->n; ++d) {
+                const brc_device_info *const info = &list->items[d];
+                if (info->kind != BRC_DEVICE_OPENCL || !info->usable || info->is_gpu != (gpus == 1)) continue;
+                if (!info->has_double && precision != BRC_SINGLE) continue;
+                if (pass == 0)
+                    ++n;
+                else if (at++ == local % n)
+                    return d;
+            }
+    }
+    return -1;
+}
+
+brc_status brc_device_log_places(brc_context *context, const brc_device *device)
+{
+    enum { ROOM = 320 };
+    const brc_ranks_place place = brc_ranks_here();
+    const brc_device_info *const info = brc_device_get_info(device);
+    int64_t *ones = NULL;
+    char *all = NULL, own[ROOM];
+    brc_status status = BRC_OK;
+    if (place.count == 1) return BRC_OK;
+    snprintf(own, sizeof own, "%.100s: %s, %s", place.node, info->selector, info->name);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &ones, place.count, "places of ranks"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &all, (int64_t)ROOM * place.count, "places of ranks"));
+    for (int32_t k = 0; k < place.count; ++k)
+        ones[k] = 1;
+    BRC_TRY_OR(cleanup, brc_ranks_gather_all(context, own, ROOM, ones, all));
+    for (int32_t k = 0; k < place.count && place.mine == 0; ++k)
+        brc_log(context, BRC_LOG_INFO, "rank %d on %s", (int)k, all + (int64_t)ROOM * k);
+cleanup:
+    brc_memory_free(ones);
+    brc_memory_free(all);
+    return status;
 }
 
 brc_status brc_device_list_look(brc_context *context, unsigned kinds, brc_device_list **out)

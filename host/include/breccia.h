@@ -103,7 +103,7 @@ BRECCIA_PUBLIC const char *breccia_scene_yaml(const breccia_scene *scene);
 
 /* How to run; zero is the default of each. All borrowed during the call that takes it. */
 typedef struct breccia_options {
-    const char *device;    /* "auto" (default), "cpu", "opencl:N", "target:N" */
+    const char *device;    /* "auto" (default), "cpu", "opencl:N", "opencl:auto", "target:N" */
     const char *precision; /* "double" (default), "mixed", "single" */
     int threads;           /* of the cpu device and of building; 0: as OpenMP decides */
     bool exact;            /* every product and sum is rounded by itself: equal bits on every device, slower */

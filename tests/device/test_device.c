@@ -28,9 +28,10 @@ static void a_selector_of_another_form_is_refused(void **unused)
         const brc_device_request request = {.selector = selectors[k]};
         assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
         char expected[160];
-        snprintf(expected, sizeof expected,
-                 "device '%s' is not a selector: expected auto, cpu, opencl:N or target:N; usable here: cpu",
-                 selectors[k]);
+        snprintf(
+            expected, sizeof expected,
+            "device '%s' is not a selector: expected auto, cpu, opencl:N, opencl:auto or target:N; usable here: cpu",
+            selectors[k]);
         device_cases_says(context, expected);
     }
     brc_context_free(&context);

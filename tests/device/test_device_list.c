@@ -56,6 +56,29 @@ static void automatic_takes_the_first_gpu_that_has_the_precision(void **unused)
     assert_non_null(strstr(why, "no GPU here has double precision"));
 }
 
+static void ranks_of_a_machine_take_its_gpus_in_turn(void **unused)
+{
+    (void)unused;
+    brc_device_info items[] = {
+        made_up(BRC_DEVICE_CPU, "cpu", false, true, true),
+        made_up(BRC_DEVICE_OPENCL, "opencl:0", false, true, true),
+        made_up(BRC_DEVICE_OPENCL, "opencl:1", true, true, false),
+        made_up(BRC_DEVICE_OPENCL, "opencl:2", true, false, true),
+        made_up(BRC_DEVICE_OPENCL, "opencl:3", true, true, true),
+        made_up(BRC_DEVICE_OPENCL, "opencl:4", true, true, true),
+    };
+    brc_device_list list = {.n = 6, .items = items};
+    static const int of_double[] = {4, 5, 4}, of_single[] = {2, 4, 5, 2};
+    for (int k = 0; k < 3; ++k)
+        assert_int_equal(brc_device_list_deal(&list, BRC_DOUBLE, k), of_double[k]);
+    for (int k = 0; k < 4; ++k)
+        assert_int_equal(brc_device_list_deal(&list, BRC_SINGLE, k), of_single[k]);
+    list.n = 4; /* no GPU that has the precision: the driver for the CPU */
+    assert_int_equal(brc_device_list_deal(&list, BRC_MIXED, 1), 1);
+    list.n = 1;
+    assert_int_equal(brc_device_list_deal(&list, BRC_DOUBLE, 0), -1);
+}
+
 static void automatic_takes_the_cpu_rather_than_opencl_on_the_cpu(void **unused)
 {
     (void)unused;
@@ -101,6 +124,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_processor_is_always_there_and_something_is_automatic),
         cmocka_unit_test(automatic_takes_the_first_gpu_that_has_the_precision),
+        cmocka_unit_test(ranks_of_a_machine_take_its_gpus_in_turn),
         cmocka_unit_test(automatic_takes_the_cpu_rather_than_opencl_on_the_cpu),
         cmocka_unit_test(the_printed_list_marks_the_automatic_one_and_says_why),
     };
