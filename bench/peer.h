@@ -23,6 +23,17 @@ typedef struct brc_peer {
 } brc_peer;
 
 #define BRC_PEERS_MOST 2
+#define BRC_PEER_WORDS_MOST 40
+
+/* The first executable file of this name on PATH, into out [size]; false: none. */
+bool brc_peer_on_path(const char *name, char *out, size_t size);
+/* Run a program (words[0] its path, NULL after the last) to its end, without a shell, without input and with one
+ * thread, all that it prints into the file `output`. *state: as of waitpid. BRC_FILE_FAILED: it cannot be started. */
+brc_status brc_peer_spawn(brc_context *context, const char *const words[BRC_PEER_WORDS_MOST], const char *output,
+                          int *state);
+/* The last line of `text` (cut into lines by it) that says something, of a program that failed, into out [size]. */
+void brc_peer_last_line(char *text, char *out, size_t size);
+
 /* Those on PATH that can use n_threads. What is missing, or lacks a package, is told in the log with what would install
  * it. `folder` is there and takes what LAMMPS says of itself. BRC_FILE_FAILED: a program cannot be started. */
 brc_status brc_peer_find(brc_context *context, int n_threads, const char *folder, brc_peer out[BRC_PEERS_MOST], int *n);

@@ -105,6 +105,11 @@ brc_status brc_statics_cost_measure(brc_context *context, const brc_statics_cost
             status = solve(context, r, scene, domain, body, BRC_PRECONDITIONER_BLOCKS, NAN, &before, rows);
         if (status == BRC_OK)
             status = solve(context, r, scene, domain, body, BRC_PRECONDITIONER_MULTIGRID, before, &seconds, rows);
+        if (status == BRC_OK && r->peer) {
+            const brc_statics_peer_body whole = {body, domain->n_elements, r->poisson, seconds};
+            status = brc_statics_peer_row(context, r->peer, &whole, rows);
+            if (status == BRC_OK) status = r->row(r->self, rows);
+        }
         brc_domain_free(&domain);
         brc_scene_free(&scene);
         BRC_TRY(status);

@@ -8,6 +8,7 @@
 
 #include "../host/device/device.h"
 #include "rows.h"
+#include "statics_peer.h"
 
 typedef struct brc_statics_cost_request {
     int64_t elements;       /* wanted, of each body */
@@ -17,6 +18,7 @@ typedef struct brc_statics_cost_request {
     const char *device; /* selector */
     brc_precision precision;
     int n_threads;
+    const brc_statics_peer *peer; /* solves the same bodies too; NULL: none */
     /* Called after each row; a status other than BRC_OK stops. */
     brc_status (*row)(void *self, const brc_rows *rows);
     void *self;

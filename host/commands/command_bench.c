@@ -1,11 +1,12 @@
 /* breccia bench: measurements of speed, and of what accuracy costs. */
 #include "bench/bench_accuracy.h"
+#include "bench/bench_options.h"
 #include "bench/bench_peers.h"
+#include "bench/bench_statics.h"
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
 #include "../../bench/launches.h"
 #include "../../bench/sectors.h"
-#include "../../bench/statics_cost.h"
 #include "../../bench/throughput.h"
 #include "../base/memory.h"
 #include <errno.h>
@@ -36,33 +37,6 @@ static const brc_option options[] = {
     {"steps", 0, "N", false,
      "peers: steps of each of the five samples (default 200); launches: steps that are counted (default 1024)"},
 };
-
-/* The list of an option, or its default, split in `copy`. */
-static brc_status take_list(brc_context *context, const brc_arguments *arguments, const char *name,
-                            const char *otherwise, char *copy, size_t size, const char **pieces, int *n)
-{
-    const char *text = brc_arguments_value(arguments, name);
-    if (!text) text = otherwise;
-    if (strlen(text) >= size) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: --%s is too long", name);
-    strcpy(copy, text);
-    *n = brc_text_split(copy, BRC_THROUGHPUT_LIST, pieces);
-    if (*n < 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: --%s '%s' is not a list such as %s (at most %d pieces)",
-                        name, text, otherwise, BRC_THROUGHPUT_LIST);
-    return BRC_OK;
-}
-
-static brc_status take_number(brc_context *context, const char *name, const char *text, double low, double high,
-                              double *out)
-{
-    char *end;
-    errno = 0;
-    *out = strtod(text, &end);
-    if (end == text || *end || errno == ERANGE || !(*out >= low && *out <= high))
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench: --%s holds '%s', expected a number from %g to %g", name,
-                        text, low, high);
-    return BRC_OK;
-}
 
 /* "cpu" and the usable OpenCL devices, as a list. */
 static brc_status default_devices(brc_context *context, char *out, size_t size)
@@ -95,16 +69,6 @@ static brc_status print_row(void *self, const brc_rows *rows)
     return brc_rows_write(rows, self); /* a long bench that is stopped keeps its rows */
 }
 
-/* Options of the other kind of bench are slips. */
-static brc_status refuse_options(brc_context *context, const brc_arguments *arguments, const char *kind, int n,
-                                 const char *const *names)
-{
-    for (int k = 0; k < n; ++k)
-        if (brc_arguments_value(arguments, names[k]))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench %s: --%s is not for this bench", kind, names[k]);
-    return BRC_OK;
-}
-
 static brc_status run_accuracy(const brc_session *session, const brc_arguments *arguments)
 {
     static const char *const others[] = {"sizes", "models",   "precisions", "exact",  "sample",
@@ -115,7 +79,7 @@ static brc_status run_accuracy(const brc_session *session, const brc_arguments *
     int n_devices = 0, n_counts = 0;
     double n_threads;
     brc_accuracy_request request = {.problems = pieces};
-    BRC_TRY(refuse_options(context, arguments, "accuracy", sizeof others / sizeof *others, others));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "accuracy", sizeof others / sizeof *others, others));
     request.output =
         brc_arguments_value(arguments, "output") ? brc_arguments_value(arguments, "output") : "results/accuracy";
     request.folder = brc_arguments_value(arguments, "folder");
@@ -124,10 +88,11 @@ static brc_status run_accuracy(const brc_session *session, const brc_arguments *
     const char *asked = brc_arguments_value(arguments, "problems");
     if (asked && strcmp(asked, "list") == 0) return brc_bench_accuracy_list(context, request.folder);
     if (asked)
-        BRC_TRY(take_list(context, arguments, "problems", "", problems, sizeof problems, pieces, &request.n_problems));
-    BRC_TRY(take_list(context, arguments, "devices", "cpu", devices, sizeof devices, device, &n_devices));
-    BRC_TRY(take_list(context, arguments, "threads", "1", threads, sizeof threads, count, &n_counts));
-    BRC_TRY(take_number(context, "threads", count[0], 1, 4096, &n_threads));
+        BRC_TRY(brc_bench_take_list(context, arguments, "problems", "", problems, sizeof problems, pieces,
+                                    &request.n_problems));
+    BRC_TRY(brc_bench_take_list(context, arguments, "devices", "cpu", devices, sizeof devices, device, &n_devices));
+    BRC_TRY(brc_bench_take_list(context, arguments, "threads", "1", threads, sizeof threads, count, &n_counts));
+    BRC_TRY(brc_bench_take_number(context, "threads", count[0], 1, 4096, &n_threads));
     if (n_devices > 1 || n_counts > 1)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "breccia bench accuracy: one device and one number of threads, found several");
@@ -163,15 +128,15 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
         *count[BRC_THROUGHPUT_LIST], *row[BRC_THROUGHPUT_LIST];
     int n_devices = 0, n_sizes = 0, n_models = 0, n_counts = 0, n_rows = 0;
     double number;
-    BRC_TRY(refuse_options(context, arguments, "contact", sizeof others / sizeof *others, others));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "contact", sizeof others / sizeof *others, others));
     const char *given = brc_arguments_value(arguments, "output");
     snprintf(folder, sizeof folder, "%s", given ? given : "results/contact");
     brc_contact_cost_request request = {.sample_s = 0.5, .row = print_contact, .self = folder};
-    BRC_TRY(take_list(context, arguments, "devices", "cpu", copy[0], sizeof copy[0], device, &n_devices));
-    BRC_TRY(take_list(context, arguments, "sizes", "3e4", copy[1], sizeof copy[1], size, &n_sizes));
-    BRC_TRY(take_list(context, arguments, "models", "dlsm,cbm", copy[2], sizeof copy[2], model, &n_models));
-    BRC_TRY(take_list(context, arguments, "threads", "1", copy[3], sizeof copy[3], count, &n_counts));
-    BRC_TRY(take_number(context, "threads", count[0], 1, 4096, &number));
+    BRC_TRY(brc_bench_take_list(context, arguments, "devices", "cpu", copy[0], sizeof copy[0], device, &n_devices));
+    BRC_TRY(brc_bench_take_list(context, arguments, "sizes", "3e4", copy[1], sizeof copy[1], size, &n_sizes));
+    BRC_TRY(brc_bench_take_list(context, arguments, "models", "dlsm,cbm", copy[2], sizeof copy[2], model, &n_models));
+    BRC_TRY(brc_bench_take_list(context, arguments, "threads", "1", copy[3], sizeof copy[3], count, &n_counts));
+    BRC_TRY(brc_bench_take_number(context, "threads", count[0], 1, 4096, &number));
     if (n_devices > 1 || n_counts > 1)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "breccia bench contact: one device and one number of threads, found several");
@@ -185,8 +150,8 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
         request.cells |= cells;
         request.spheres |= spheres;
     }
-    BRC_TRY(
-        take_list(context, arguments, "problems", "nothing-near,dust,dense", copy[4], sizeof copy[4], row, &n_rows));
+    BRC_TRY(brc_bench_take_list(context, arguments, "problems", "nothing-near,dust,dense", copy[4], sizeof copy[4], row,
+                                &n_rows));
     for (int k = 0; k < n_rows; ++k) {
         bool *const wanted = strcmp(row[k], "nothing-near") == 0 ? &request.nothing_near
                              : strcmp(row[k], "dust") == 0       ? &request.dust
@@ -198,80 +163,14 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
         *wanted = true;
     }
     if (brc_arguments_value(arguments, "sample"))
-        BRC_TRY(
-            take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
+        BRC_TRY(brc_bench_take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600,
+                                      &request.sample_s));
     brc_rows rows = {.context = context};
     brc_status status = BRC_OK;
     for (int k = 0; k < n_sizes && status == BRC_OK; ++k) {
-        status = take_number(context, "sizes", size[k], 64, 1e9, &number);
+        status = brc_bench_take_number(context, "sizes", size[k], 64, 1e9, &number);
         request.elements = (int64_t)number;
         if (status == BRC_OK) status = brc_contact_cost_measure(context, &request, &rows);
-    }
-    if (status == BRC_OK) printf("%s/rows.json\n", folder);
-    brc_rows_free(&rows);
-    return status;
-}
-
-static brc_status print_statics(void *self, const brc_rows *rows)
-{
-    const brc_row *row = &rows->rows[rows->n_rows - 1];
-    printf("%-10s %9.0f %-9s %7.0f %9.4g s", brc_row_text(row, "body"), brc_row_number(row, "elements"),
-           brc_row_text(row, "preconditioner"), brc_row_number(row, "iterations"), brc_row_number(row, "seconds"));
-    if (brc_row_number(row, "multigrid_bytes_per_element") > 0)
-        printf(", of these %.3g s setup, %.0f bytes an element", brc_row_number(row, "setup_s"),
-               brc_row_number(row, "multigrid_bytes_per_element"));
-    if (!isnan(brc_row_number(row, "blocks_over_this")))
-        printf(", blocks took %.3g times as long", brc_row_number(row, "blocks_over_this"));
-    printf("\n");
-    fflush(stdout);
-    return brc_rows_write(rows, self);
-}
-
-static brc_status run_statics(const brc_session *session, const brc_arguments *arguments)
-{
-    static const char *const others[] = {"models", "exact", "sample", "copy", "quick", "folder", "resume", "steps"};
-    brc_context *context = session->context;
-    char copy[5][256], folder[512];
-    const char *size[BRC_THROUGHPUT_LIST], *device[BRC_THROUGHPUT_LIST], *count[BRC_THROUGHPUT_LIST],
-        *body[BRC_THROUGHPUT_LIST], *precision[BRC_THROUGHPUT_LIST];
-    int n_sizes = 0, n_devices = 0, n_counts = 0, n_bodies = 0, n_precisions = 0;
-    double number, most = 5e4;
-    BRC_TRY(refuse_options(context, arguments, "statics", sizeof others / sizeof *others, others));
-    const char *given = brc_arguments_value(arguments, "output");
-    snprintf(folder, sizeof folder, "%s", given ? given : "results/statics");
-    brc_statics_cost_request request = {.poisson = 0.3, .row = print_statics, .self = folder};
-    BRC_TRY(take_list(context, arguments, "sizes", "1e3,1e4,1e5", copy[0], sizeof copy[0], size, &n_sizes));
-    BRC_TRY(take_list(context, arguments, "devices", "cpu", copy[1], sizeof copy[1], device, &n_devices));
-    BRC_TRY(take_list(context, arguments, "threads", "1", copy[2], sizeof copy[2], count, &n_counts));
-    BRC_TRY(take_list(context, arguments, "problems", "cantilever,cube", copy[3], sizeof copy[3], body, &n_bodies));
-    BRC_TRY(take_list(context, arguments, "precisions", "double", copy[4], sizeof copy[4], precision, &n_precisions));
-    BRC_TRY(take_number(context, "threads", count[0], 1, 4096, &number));
-    if (n_devices > 1 || n_counts > 1 || n_precisions > 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "breccia bench statics: one device, precision and number of threads, found several");
-    request.device = device[0];
-    request.n_threads = (int)number;
-    BRC_TRY(brc_precision_parse(context, precision[0], &request.precision));
-    if (brc_arguments_value(arguments, "elements"))
-        BRC_TRY(take_number(context, "elements", brc_arguments_value(arguments, "elements"), 0, 1e9, &most));
-    request.most_of_blocks = (int64_t)most;
-    for (int k = 0; k < n_bodies; ++k) {
-        const bool cantilever = strcmp(body[k], "cantilever") == 0, cube = strcmp(body[k], "cube") == 0;
-        if (!cantilever && !cube)
-            return BRC_FAIL(context, BRC_BAD_INPUT,
-                            "breccia bench statics: no problem '%s', expected cantilever or cube", body[k]);
-        request.cantilever |= cantilever;
-        request.cube |= cube;
-    }
-    if (brc_arguments_value(arguments, "poisson"))
-        BRC_TRY(take_number(context, "poisson", brc_arguments_value(arguments, "poisson"), -0.999, 0.4999,
-                            &request.poisson));
-    brc_rows rows = {.context = context};
-    brc_status status = BRC_OK;
-    for (int k = 0; k < n_sizes && status == BRC_OK; ++k) {
-        status = take_number(context, "sizes", size[k], 500, 1e9, &number);
-        request.elements = (int64_t)number;
-        if (status == BRC_OK) status = brc_statics_cost_measure(context, &request, &rows);
     }
     if (status == BRC_OK) printf("%s/rows.json\n", folder);
     brc_rows_free(&rows);
@@ -325,19 +224,22 @@ static brc_status take_one_case(brc_context *context, const brc_arguments *argum
     const char *pieces[BRC_THROUGHPUT_LIST];
     double number;
     int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
-    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", out->copy[0], sizeof out->copy[0],
-                      pieces, &out->n_models));
+    BRC_TRY(brc_bench_take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", out->copy[0],
+                                sizeof out->copy[0], pieces, &out->n_models));
     BRC_TRY(take_models(context, out->n_models, pieces, out->models));
-    BRC_TRY(take_list(context, arguments, "sizes", "2e4", out->copy[1], sizeof out->copy[1], pieces, &n_sizes));
-    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e9, &number));
+    BRC_TRY(
+        brc_bench_take_list(context, arguments, "sizes", "2e4", out->copy[1], sizeof out->copy[1], pieces, &n_sizes));
+    BRC_TRY(brc_bench_take_number(context, "sizes", pieces[0], 8, 1e9, &number));
     out->size = (int64_t)number;
-    BRC_TRY(take_list(context, arguments, "precisions", "double", out->copy[2], sizeof out->copy[2], pieces,
-                      &n_precisions));
+    BRC_TRY(brc_bench_take_list(context, arguments, "precisions", "double", out->copy[2], sizeof out->copy[2], pieces,
+                                &n_precisions));
     BRC_TRY(brc_precision_parse(context, pieces[0], &out->precision));
-    BRC_TRY(take_list(context, arguments, "threads", "1", out->copy[3], sizeof out->copy[3], pieces, &n_threads));
-    BRC_TRY(take_number(context, "threads", pieces[0], 1, 4096, &number));
+    BRC_TRY(
+        brc_bench_take_list(context, arguments, "threads", "1", out->copy[3], sizeof out->copy[3], pieces, &n_threads));
+    BRC_TRY(brc_bench_take_number(context, "threads", pieces[0], 1, 4096, &number));
     out->n_threads = (int)number;
-    BRC_TRY(take_list(context, arguments, "devices", device, out->copy[4], sizeof out->copy[4], pieces, &n_devices));
+    BRC_TRY(brc_bench_take_list(context, arguments, "devices", device, out->copy[4], sizeof out->copy[4], pieces,
+                                &n_devices));
     out->device = pieces[0];
     if (n_sizes > 1 || n_precisions > 1 || n_threads > 1 || n_devices > 1)
         return BRC_FAIL(context, BRC_BAD_INPUT,
@@ -362,7 +264,7 @@ static brc_status run_effects(const brc_session *session, const brc_arguments *a
     const char *output = brc_arguments_value(arguments, "output");
     char folder[512];
     one_case given;
-    BRC_TRY(refuse_options(context, arguments, "effects", sizeof others / sizeof *others, others));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "effects", sizeof others / sizeof *others, others));
     snprintf(folder, sizeof folder, "%s", output ? output : "results/effects");
     BRC_TRY(take_one_case(context, arguments, "effects", "cpu", &given));
     brc_effects_request request = {.models = given.models,
@@ -376,8 +278,8 @@ static brc_status run_effects(const brc_session *session, const brc_arguments *a
                                    .row = print_effect,
                                    .self = folder};
     if (brc_arguments_value(arguments, "sample"))
-        BRC_TRY(
-            take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
+        BRC_TRY(brc_bench_take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600,
+                                      &request.sample_s));
     printf("milliseconds a step and multiple of the elastic step (median of alternating samples, least and most); "
            "share of bonds or faces in 100 steps [%%]\n");
     brc_rows rows = {.context = context};
@@ -407,7 +309,7 @@ static brc_status run_launches(const brc_session *session, const brc_arguments *
     char folder[512];
     one_case given;
     double megabytes = 256, steps = 1024;
-    BRC_TRY(refuse_options(context, arguments, "launches", sizeof others / sizeof *others, others));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "launches", sizeof others / sizeof *others, others));
     snprintf(folder, sizeof folder, "%s", output ? output : "results/launches");
     BRC_TRY(take_one_case(context, arguments, "launches", "auto", &given));
     brc_launches_request request = {.models = given.models,
@@ -419,9 +321,9 @@ static brc_status run_launches(const brc_session *session, const brc_arguments *
                                     .row = print_launches,
                                     .self = folder};
     if (brc_arguments_value(arguments, "copy"))
-        BRC_TRY(take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &megabytes));
+        BRC_TRY(brc_bench_take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &megabytes));
     if (brc_arguments_value(arguments, "steps"))
-        BRC_TRY(take_number(context, "steps", brc_arguments_value(arguments, "steps"), 1, 1e9, &steps));
+        BRC_TRY(brc_bench_take_number(context, "steps", brc_arguments_value(arguments, "steps"), 1, 1e9, &steps));
     request.bandwidth_bytes = (int64_t)(megabytes * 1e6);
     request.n_steps = (int64_t)steps;
     printf("launches a step, waits in 1000 steps, bytes read, written and copied on the device a step, seconds a step, "
@@ -452,12 +354,12 @@ static brc_status run_sectors(const brc_session *session, const brc_arguments *a
     char folder[512], copy[256];
     double number;
     int n = 0;
-    BRC_TRY(refuse_options(context, arguments, "sectors", sizeof others / sizeof *others, others));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "sectors", sizeof others / sizeof *others, others));
     snprintf(folder, sizeof folder, "%s", given ? given : "results/sectors");
     brc_sectors_request request = {.row = print_sectors, .self = folder};
-    BRC_TRY(take_list(context, arguments, "sizes", "1e5", copy, sizeof copy, pieces, &n));
+    BRC_TRY(brc_bench_take_list(context, arguments, "sizes", "1e5", copy, sizeof copy, pieces, &n));
     if (n > 1) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench sectors: one size, found several");
-    BRC_TRY(take_number(context, "sizes", pieces[0], 8, 1e8, &number));
+    BRC_TRY(brc_bench_take_number(context, "sizes", pieces[0], 8, 1e8, &number));
     request.size = (int64_t)number;
     printf("bytes of a record, sectors a gather, bytes fetched over wanted, bytes a half-edge where groups of 128, "
            "512, 1024 fetch each sector once\n");
@@ -472,14 +374,16 @@ static brc_status run_peers(const brc_session *session, const brc_arguments *arg
                                          "copy",  "problems", "quick",   "folder",     "resume", "poisson"};
     brc_context *context = session->context;
     double elements = 2e4, steps = 200, threads = 1;
-    BRC_TRY(refuse_options(context, arguments, "peers", sizeof others / sizeof *others, others));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "peers", sizeof others / sizeof *others, others));
     const char *output = brc_arguments_value(arguments, "output");
     if (brc_arguments_value(arguments, "elements"))
-        BRC_TRY(take_number(context, "elements", brc_arguments_value(arguments, "elements"), 200, 1e8, &elements));
+        BRC_TRY(brc_bench_take_number(context, "elements", brc_arguments_value(arguments, "elements"), 200, 1e8,
+                                      &elements));
     if (brc_arguments_value(arguments, "steps"))
-        BRC_TRY(take_number(context, "steps", brc_arguments_value(arguments, "steps"), 1, 1e9, &steps));
+        BRC_TRY(brc_bench_take_number(context, "steps", brc_arguments_value(arguments, "steps"), 1, 1e9, &steps));
     if (brc_arguments_value(arguments, "threads"))
-        BRC_TRY(take_number(context, "threads", brc_arguments_value(arguments, "threads"), 1, 4096, &threads));
+        BRC_TRY(
+            brc_bench_take_number(context, "threads", brc_arguments_value(arguments, "threads"), 1, 4096, &threads));
     return brc_bench_peers(context, output ? output : "results/peers", (int64_t)elements, (int64_t)steps, (int)threads);
 }
 
@@ -491,7 +395,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     if (strcmp(arguments->positional[0], "accuracy") == 0) return run_accuracy(session, arguments);
     if (strcmp(arguments->positional[0], "contact") == 0) return run_contact(session, arguments);
     if (strcmp(arguments->positional[0], "effects") == 0) return run_effects(session, arguments);
-    if (strcmp(arguments->positional[0], "statics") == 0) return run_statics(session, arguments);
+    if (strcmp(arguments->positional[0], "statics") == 0) return brc_bench_statics(session, arguments);
     if (strcmp(arguments->positional[0], "sectors") == 0) return run_sectors(session, arguments);
     if (strcmp(arguments->positional[0], "launches") == 0) return run_launches(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
@@ -499,7 +403,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
                         "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, "
                         "statics, launches, sectors, peers",
                         arguments->positional[0]);
-    BRC_TRY(refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
     char folder[512], here[256], copy[4][256], devices[256];
     snprintf(folder, sizeof folder, "%s", given_folder ? given_folder : "results/throughput");
@@ -508,30 +412,32 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     const char *pieces[BRC_THROUGHPUT_LIST];
     double number;
     BRC_TRY(default_devices(context, here, sizeof here));
-    BRC_TRY(
-        take_list(context, arguments, "devices", here, devices, sizeof devices, request.devices, &request.n_devices));
-    BRC_TRY(take_list(context, arguments, "sizes", "1e4,1e5,1e6", copy[0], sizeof copy[0], pieces, &request.n_sizes));
+    BRC_TRY(brc_bench_take_list(context, arguments, "devices", here, devices, sizeof devices, request.devices,
+                                &request.n_devices));
+    BRC_TRY(brc_bench_take_list(context, arguments, "sizes", "1e4,1e5,1e6", copy[0], sizeof copy[0], pieces,
+                                &request.n_sizes));
     for (int k = 0; k < request.n_sizes; ++k) {
-        BRC_TRY(take_number(context, "sizes", pieces[k], 8, 1e9, &number));
+        BRC_TRY(brc_bench_take_number(context, "sizes", pieces[k], 8, 1e9, &number));
         request.sizes[k] = (int64_t)number;
     }
-    BRC_TRY(take_list(context, arguments, "threads", "1,2", copy[1], sizeof copy[1], pieces, &request.n_threads));
+    BRC_TRY(
+        brc_bench_take_list(context, arguments, "threads", "1,2", copy[1], sizeof copy[1], pieces, &request.n_threads));
     for (int k = 0; k < request.n_threads; ++k) {
-        BRC_TRY(take_number(context, "threads", pieces[k], 1, 4096, &number));
+        BRC_TRY(brc_bench_take_number(context, "threads", pieces[k], 1, 4096, &number));
         request.threads[k] = (int)number;
     }
-    BRC_TRY(take_list(context, arguments, "precisions", "double,mixed,single", copy[2], sizeof copy[2], pieces,
-                      &request.n_precisions));
+    BRC_TRY(brc_bench_take_list(context, arguments, "precisions", "double,mixed,single", copy[2], sizeof copy[2],
+                                pieces, &request.n_precisions));
     for (int k = 0; k < request.n_precisions; ++k)
         BRC_TRY(brc_precision_parse(context, pieces[k], &request.precisions[k]));
-    BRC_TRY(take_list(context, arguments, "models", "dlsm,dlsm-published", copy[3], sizeof copy[3], pieces,
-                      &request.n_models));
+    BRC_TRY(brc_bench_take_list(context, arguments, "models", "dlsm,dlsm-published", copy[3], sizeof copy[3], pieces,
+                                &request.n_models));
     BRC_TRY(take_models(context, request.n_models, pieces, request.models));
     if (brc_arguments_value(arguments, "sample"))
-        BRC_TRY(
-            take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600, &request.sample_s));
+        BRC_TRY(brc_bench_take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600,
+                                      &request.sample_s));
     if (brc_arguments_value(arguments, "copy")) {
-        BRC_TRY(take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &number));
+        BRC_TRY(brc_bench_take_number(context, "copy", brc_arguments_value(arguments, "copy"), 1, 1e5, &number));
         request.bandwidth_bytes = (int64_t)(number * 1e6);
     }
     printf("million updates a second (median of five, least and most); bandwidth in GB/s; contraction %s\n",
@@ -559,7 +465,9 @@ const brc_command brc_command_bench = {
         "accuracy: problems with exact answers, error against seconds (one device, one number of threads). "
         "contact: the step with nothing near, of a ball gone to dust, and of dust pressed together, over the step "
         "without contact (default 3e4 elements). "
-        "statics: a cantilever and a cube in equilibrium, with multigrid and with diagonal blocks (one device, "
+        "statics: a cantilever and a cube in equilibrium, with multigrid, with diagonal blocks and, on one thread, by "
+        "finite "
+        "elements where python3 has dolfinx (one device, "
         "precision and number of threads). "
         "launches: what a step asks of a device, counted, and its price by a model of the device (one size, device, "
         "precision). "

@@ -14,6 +14,7 @@
 #include "../../bench/peer.h"
 #include "../../bench/peer_bar.h"
 #include "../../bench/peer_work.h"
+#include "../../bench/statics_peer.h"
 #include "../../host/base/file.h"
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
@@ -300,6 +301,59 @@ static void programs_are_those_on_the_path_and_lammps_is_asked_for_its_beams(voi
     brc_context_free(&context);
 }
 
+static void the_lines_of_finite_elements_are_read(void **state)
+{
+    (void)state;
+    brc_statics_peer_result r;
+    brc_statics_peer_read("INFO:root:gcc\nbreccia-peer version 0.5.2\nbreccia-peer nodes 1250\nbreccia-peer iterations "
+                          "24\nbreccia-peer setup 0.25\nbreccia-peer seconds 1.5\nbreccia-peer answer 2e-5\n",
+                          &r);
+    assert_string_equal(r.version, "0.5.2");
+    assert_near(r.nodes, 1250, 0);
+    assert_near(r.iterations, 24, 0);
+    assert_near(r.setup, 0.25, 0);
+    assert_near(r.seconds, 1.5, 0);
+    assert_true(isnan(r.assembly) && isnan(r.resident)); /* not told */
+    brc_statics_peer_read("Traceback\nModuleNotFoundError: no module\n", &r);
+    assert_true(isnan(r.seconds));
+}
+
+/* A python3 of our own stands for one that has FEniCSx: what it is asked, and what becomes of what it says. */
+static void finite_elements_are_asked_and_their_row_added(void **state)
+{
+    (void)state;
+    const brc_statics_peer_body body = {"cube", 8000, 0.3, 2};
+    char folder[] = "peer-test-XXXXXX", *before = getenv("PATH"), path[4096];
+    brc_context *context = brc_context_create();
+    brc_rows rows = {.context = context};
+    brc_statics_peer *peer = NULL;
+    assert_non_null(before);
+    before = strdup(before);
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s:%s", folder, before);
+    assert_int_equal(setenv("PATH", path, 1), 0);
+    make_program(folder, "python3",
+                 "#!/bin/sh\n[ $1 = -c ] && exit 0\necho breccia-peer nodes $3\necho breccia-peer iterations 17\n"
+                 "echo breccia-peer seconds 3\n");
+    assert_int_equal(brc_statics_peer_find(context, folder, "fe.py", "text", &peer), BRC_OK);
+    assert_non_null(peer);
+    assert_int_equal(brc_statics_peer_row(context, peer, &body, &rows), BRC_OK);
+    assert_string_equal(brc_row_text(&rows.rows[0], "program"), "fenicsx");
+    assert_near(brc_row_number(&rows.rows[0], "elements"), 8000, 0);
+    assert_near(brc_row_number(&rows.rows[0], "iterations"), 17, 0);
+    assert_near(brc_row_number(&rows.rows[0], "ratio"), 1.5, 0);
+    make_program(folder, "python3", "#!/bin/sh\necho out of memory\nexit 1\n");
+    assert_int_equal(brc_statics_peer_row(context, peer, &body, &rows), BRC_OK);
+    assert_string_equal(brc_row_text(&rows.rows[1], "note"), "out of memory");
+    assert_true(isnan(brc_row_number(&rows.rows[1], "seconds")));
+    brc_statics_peer_free(&peer);
+    assert_int_equal(setenv("PATH", before, 1), 0);
+    free(before);
+    remove_folder(folder);
+    brc_rows_free(&rows);
+    brc_context_free(&context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -311,6 +365,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(bonds_of_lammps_have_the_stiffness_of_their_class_or_their_own, open_case,
                                         close_case),
         cmocka_unit_test(programs_are_those_on_the_path_and_lammps_is_asked_for_its_beams),
+        cmocka_unit_test(the_lines_of_finite_elements_are_read),
+        cmocka_unit_test(finite_elements_are_asked_and_their_row_added),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
