@@ -2,6 +2,7 @@
 #include "bench/bench_accuracy.h"
 #include "bench/bench_options.h"
 #include "bench/bench_peers.h"
+#include "bench/bench_ranks.h"
 #include "bench/bench_statics.h"
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
@@ -398,10 +399,11 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     if (strcmp(arguments->positional[0], "statics") == 0) return brc_bench_statics(session, arguments);
     if (strcmp(arguments->positional[0], "sectors") == 0) return run_sectors(session, arguments);
     if (strcmp(arguments->positional[0], "launches") == 0) return run_launches(session, arguments);
+    if (strcmp(arguments->positional[0], "ranks") == 0) return brc_bench_ranks(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, "
-                        "statics, launches, sectors, peers",
+                        "statics, launches, sectors, ranks, peers",
                         arguments->positional[0]);
     BRC_TRY(brc_bench_refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
@@ -454,7 +456,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 
 const brc_command brc_command_bench = {
     .name = "bench",
-    .operands = "throughput|accuracy|contact|effects|statics|launches|sectors|peers",
+    .operands = "throughput|accuracy|contact|effects|statics|launches|sectors|ranks|peers",
     .least = 1,
     .most = 1,
     .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or "
@@ -472,9 +474,11 @@ const brc_command brc_command_bench = {
         "launches: what a step asks of a device, counted, and its price by a model of the device (one size, device, "
         "precision). "
         "sectors: what gathers cost the memory of a GPU, counted from neighbour lists (one size). "
+        "ranks: what several ranks cost; --problems surface,exchange,step. "
         "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number "
         "of threads). "
         "peers: the same packing in breccia and in YADE and LAMMPS, where they are on PATH (one number of threads).",
     .options = options,
     .n_options = sizeof options / sizeof *options,
+    .ranks = true,
     .run = run};

@@ -43,7 +43,9 @@ static brc_status dispatch(const brc_session *session, int argc, const char *con
     }
     const brc_command *command = brc_command_find(session->context, argv[1]);
     if (!command) return BRC_BAD_INPUT;
-    if (brc_ranks_count() > 1 && !command->ranks)
+    const bool of_ranks =
+        command->ranks && (command != &brc_command_bench || strcmp(argc > 2 ? argv[2] : "", "ranks") == 0);
+    if (brc_ranks_count() > 1 && !of_ranks)
         return BRC_FAIL(session->context, BRC_BAD_INPUT, "breccia %s does not run on %d ranks; start one",
                         command->name, (int)brc_ranks_count());
     brc_arguments arguments;

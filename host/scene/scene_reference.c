@@ -1,9 +1,7 @@
 /* The pages of docs/reference/scene, written from the schema table. */
 #include "scene_reader.h"
 #include "schema_internal.h"
-#include "../base/memory.h"
 #include <ctype.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define MANY_SECTIONS 512
@@ -321,48 +319,6 @@ static void write_section(FILE *file, const reference *all, int at)
     if (section->short_key) fprintf(file, "\nA single value in place of the map is its `%s`.\n", section->short_key);
 }
 
-typedef struct indexed {
-    const char *key;
-    int page;
-} indexed;
-
-static int by_key(const void *left, const void *right)
-{
-    const indexed *a = left, *b = right;
-    const int order = strcmp(a->key, b->key);
-    return order ? order : a->page - b->page;
-}
-
-/* Every key with the pages it is on. */
-static brc_status write_index(brc_context *context, FILE *file, const reference *all)
-{
-    size_t n = 0, at = 0;
-    for (int i = 0; i < all->n_placed; ++i)
-        n += (size_t)all->placed[i].section->n_entries;
-    indexed *keys = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &keys, n, "index of keys"));
-    for (int i = 0; i < all->n_placed; ++i)
-        for (int e = 0; e < all->placed[i].section->n_entries; ++e)
-            keys[at++] = (indexed){all->placed[i].section->entries[e].key, all->placed[i].page};
-    qsort(keys, n, sizeof *keys, by_key);
-    fputs("\n## Index of keys\n\n", file);
-    for (size_t k = 0; k < n; ++k) {
-        const bool known = k > 0 && strcmp(keys[k].key, keys[k - 1].key) == 0;
-        if (known && keys[k].page == keys[k - 1].page) continue;
-        if (known)
-            fputs(", ", file);
-        else
-            fprintf(file, "%s- `%s`: ", k ? "\n" : "", keys[k].key);
-        if (keys[k].page == 0)
-            fputs("[top](#scene)", file);
-        else
-            fprintf(file, "[%s](%s.md)", PAGES[keys[k].page].name, PAGES[keys[k].page].name);
-    }
-    fputs("\n", file);
-    brc_memory_free(keys);
-    return BRC_OK;
-}
-
 int brc_scene_n_pages(void)
 {
     return N_PAGES;
@@ -388,7 +344,6 @@ brc_status brc_scene_write_page(brc_context *context, int page, const char *exam
             example);
     for (int i = 0; i < all.n_placed; ++i)
         if (all.placed[i].page == page) write_section(file, &all, i);
-    if (page == 0) BRC_TRY(write_index(context, file, &all));
     if (fflush(file) != 0 || ferror(file))
         return BRC_FAIL(context, BRC_FILE_FAILED, "the scene reference cannot be written");
     return BRC_OK;

@@ -1,11 +1,12 @@
 /* A program that writes, on any number of ranks, files of which it knows the numbers: rank k owns rows as a draw of
  * their ids decides, the last rank none where there are several. `output FOLDER ROWS` writes FOLDER/rows.h5, text.csv
- * and whole.txt, and reads the rows again. */
+ * and whole.txt, and reads the rows again. `output places SELECTOR` opens a device and says who computes where. */
 #include "../../host/base/file.h"
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/base/random.h"
 #include "../../host/base/ranks.h"
+#include "../../host/device/device_list.h"
 #include "../../host/output/append.h"
 #include "../../host/output/h5_pack.h"
 #include "../../host/output/rank_rows.h"
@@ -110,13 +111,25 @@ cleanup:
     return status;
 }
 
+static brc_status show_places(brc_context *context, const char *selector)
+{
+    brc_device *device;
+    const brc_device_request request = {.selector = selector, .precision = BRC_DOUBLE, .n_threads = 1};
+    BRC_TRY(brc_device_open(context, &request, &device));
+    const brc_status status = brc_device_log_places(context, device);
+    brc_device_close(&device);
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     bool speaks = true;
     brc_context *context = brc_context_create();
     signal(SIGXFSZ, SIG_IGN);
     brc_status status = brc_ranks_start(context, &argc, &argv);
-    if (status == BRC_OK)
+    if (status == BRC_OK && argc == 3 && strcmp(argv[1], "places") == 0)
+        status = show_places(context, argv[2]);
+    else if (status == BRC_OK)
         status = argc == 3 ? run(context, argv[1], strtoll(argv[2], NULL, 10))
                            : BRC_FAIL(context, BRC_BAD_INPUT, "usage: output FOLDER ROWS");
     status = brc_ranks_end(context, status, &speaks);

@@ -45,10 +45,19 @@ def full_disk(folder):
     expect(os.listdir(small) == [], f"a full disk: {os.listdir(small)} is left")
 
 
+def places():
+    for selector in ("cpu", "opencl:auto"):
+        code, errors = on_ranks(3, OUTPUT, "places", selector)
+        for rank in range(3):
+            expect(f"rank {rank} on {os.uname().nodename}: {selector.split(':')[0]}" in errors, f"places on {selector}: {errors}")
+        expect(code == 0 and errors.count("\n") == 3, f"places on {selector}: {code} {errors}")
+
+
 with tempfile.TemporaryDirectory() as temporary:
     for count in (1, 5, 40000, 1500000):  # the last one: more than one piece
         same_bytes(temporary, count)
     full_disk(temporary)
+places()
 for failure in FAILURES:
     print("output: " + failure)
 sys.exit(1 if FAILURES else 0)

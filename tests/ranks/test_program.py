@@ -1,5 +1,6 @@
 """breccia-mpi: one rank has the bytes of the plain program, several answer once, and what cannot run on them is refused."""
 import filecmp
+import json
 import os
 import subprocess
 import sys
@@ -50,9 +51,32 @@ def several(folder):
     expect(not os.path.exists(os.path.join(folder, "two")), "a refused run has made its folder")
 
 
+def bench(folder):
+    code, output, errors = ranks(2, "bench", "ranks", "-o", folder)
+    with open(os.path.join(folder, "rows.json"), encoding="utf-8") as file:
+        rows = json.load(file)
+    kinds = [row["quantity"] for row in rows]
+    expect(code == 0 and output.count("rows.json") == 1, f"bench ranks: {code} {output} {errors}")
+    expect(kinds.count("exchange") == 6 and {"gather", "reduce", "barrier"} < set(kinds), f"bench ranks: rows {kinds}")
+    expect(all(row["ranks"] == 2 and row["seconds"] > 0 and "MPI" in row["engine"] for row in rows), f"bench ranks: {rows}")
+    code, _, errors = ranks(2, "bench", "ranks", "--problems", "surface", "-o", folder)
+    expect(code == 2 and "one process" in errors, f"surfaces on two ranks: {code} {errors}")
+    subprocess.run([PLAIN, "bench", "ranks", "--problems", "surface,step", "--sizes", "9000", "--steps", "2", "-o", folder],
+                   check=True, capture_output=True)
+    with open(os.path.join(folder, "rows.json"), encoding="utf-8") as file:
+        rows = json.load(file)
+    expect([row["ranks"] for row in rows] == [2, 4, 8, 1], f"surfaces: {rows}")
+    for row in rows[:3]:  # ghosts of a rank are rows of others, at least those of one of its faces
+        own, others = row["rows_per_rank"], row["elements"] - row["rows_per_rank"]
+        expect(own ** (2 / 3) < row["ghosts_per_rank"] <= row["ghosts_most"] < others, f"ghosts: {row}")
+        expect(1 <= row["neighbours_most"] < row["ranks"] and 0 < row["inside_least"] < 1, f"neighbours: {row}")
+        expect(row["exchanged_bytes_most"] == 240 * row["ghosts_most"], f"bytes: {row}")
+
+
 with tempfile.TemporaryDirectory() as temporary:
     one_rank(temporary)
     several(temporary)
+    bench(temporary)
 for failure in FAILURES:
     print("program: " + failure)
 sys.exit(1 if FAILURES else 0)

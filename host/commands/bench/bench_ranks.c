@@ -1,0 +1,107 @@
+#include "bench_ranks.h"
+#include "../../../bench/ranks.h"
+#include "../../base/ranks.h"
+#include <stdlib.h>
+#include <string.h>
+
+static brc_status print_row(void *self, const brc_rows *rows)
+{
+    const brc_row *row = &rows->rows[rows->n_rows - 1];
+    const char *what = brc_row_text(row, "quantity");
+    printf("%-9s %5.0f ranks", what, brc_row_number(row, "ranks"));
+    if (strcmp(what, "surface") == 0)
+        printf(" %9.0f elements %9.0f rows %8.0f ghosts (most %8.0f) %5.2f rows^(2/3) %5.1f neighbours (most %3.0f), "
+               "inside %.2f\n",
+               brc_row_number(row, "elements"), brc_row_number(row, "rows_per_rank"),
+               brc_row_number(row, "ghosts_per_rank"), brc_row_number(row, "ghosts_most"),
+               brc_row_number(row, "surface_constant"), brc_row_number(row, "neighbours_per_rank"),
+               brc_row_number(row, "neighbours_most"), brc_row_number(row, "inside_least"));
+    else if (strcmp(what, "step") == 0)
+        printf(" %9.0f elements %10.4g s/step %6.1f messages %10.0f bytes, waited %.3g s, in flight %.3g s, %.0f MB\n",
+               brc_row_number(row, "elements"), brc_row_number(row, "seconds"),
+               brc_row_number(row, "messages_per_step"), brc_row_number(row, "exchanged_bytes_most"),
+               brc_row_number(row, "exchange_wait_s"), brc_row_number(row, "flight_s"),
+               1e-6 * brc_row_number(row, "most_resident_bytes"));
+    else if (strcmp(what, "exchange") == 0)
+        printf(" %9.0f bytes %10.2f us %8.2f GB/s\n", brc_row_number(row, "message_bytes"),
+               1e6 * brc_row_number(row, "seconds"), 1e-9 * brc_row_number(row, "exchange_bandwidth"));
+    else
+        printf(" %26.2f us\n", 1e6 * brc_row_number(row, "seconds"));
+    fflush(stdout);
+    return brc_rows_write(rows, self);
+}
+
+static brc_status refuse_others(brc_context *context, const brc_arguments *arguments)
+{
+    static const char *const others[] = {"models", "exact",  "sample",   "copy",   "quick",
+                                         "folder", "resume", "elements", "poisson"};
+    for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
+        if (brc_arguments_value(arguments, others[k]))
+            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: --%s is not for this bench", others[k]);
+    return BRC_OK;
+}
+
+static brc_status take_sizes(brc_context *context, const brc_arguments *arguments, brc_ranks_request *out)
+{
+    const char *given = brc_arguments_value(arguments, "sizes"), *piece[BRC_RANKS_SIZES];
+    char copy[256], *end;
+    snprintf(copy, sizeof copy, "%s", given ? given : "1e4,1e5");
+    out->n_sizes = brc_text_split(copy, BRC_RANKS_SIZES, piece);
+    for (int k = 0; k < out->n_sizes; ++k) {
+        const double size = strtod(piece[k], &end);
+        if (*end || !(size >= 8 && size <= 1e9)) out->n_sizes = -1;
+        out->sizes[k] = (int64_t)size;
+    }
+    if (out->n_sizes < 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: --sizes '%s': expected numbers from 8 to 1e9",
+                        given ? given : "");
+    return BRC_OK;
+}
+
+/* surface, exchange, step; without a word: what the ranks that there are can do. */
+static brc_status take_kinds(brc_context *context, const brc_arguments *arguments, brc_ranks_request *out)
+{
+    const char *given = brc_arguments_value(arguments, "problems"), *piece[3];
+    char copy[64];
+    bool *const kinds[] = {&out->surface, &out->exchange, &out->step};
+    static const char *const names[] = {"surface", "exchange", "step"};
+    snprintf(copy, sizeof copy, "%s", given ? given : brc_ranks_count() == 1 ? "surface,step" : "exchange");
+    const int n = brc_text_split(copy, 3, piece);
+    for (int k = 0; k < n; ++k) {
+        int kind = 0;
+        while (kind < 3 && strcmp(piece[k], names[kind]) != 0)
+            ++kind;
+        if (kind == 3) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: no problem '%s'", piece[k]);
+        *kinds[kind] = true;
+    }
+    if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: --problems surface,exchange,step");
+    if (out->step && brc_ranks_count() > 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: steps do not run on %d ranks yet",
+                        (int)brc_ranks_count());
+    return BRC_OK;
+}
+
+brc_status brc_bench_ranks(const brc_session *session, const brc_arguments *arguments)
+{
+    brc_context *context = session->context;
+    const char *output = brc_arguments_value(arguments, "output"),
+               *precision = brc_arguments_value(arguments, "precisions"),
+               *device = brc_arguments_value(arguments, "devices");
+    char folder[512];
+    int64_t n_threads;
+    BRC_TRY(refuse_others(context, arguments));
+    snprintf(folder, sizeof folder, "%s", output ? output : "results/ranks");
+    brc_ranks_request request = {.device = device ? device : "cpu", .row = print_row, .self = folder};
+    BRC_TRY(take_sizes(context, arguments, &request));
+    BRC_TRY(take_kinds(context, arguments, &request));
+    BRC_TRY(brc_precision_parse(context, precision ? precision : "double", &request.precision));
+    BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
+    BRC_TRY(brc_arguments_integer(context, arguments, "steps", 1, 1000000, 100, &request.n_steps));
+    request.n_threads = (int)n_threads;
+    brc_rows rows = {.context = context};
+    brc_status status = brc_ranks_measure(context, &request, &rows);
+    if (status == BRC_OK) status = brc_rows_write(&rows, folder);
+    if (status == BRC_OK) printf("%s/rows.json\n", folder);
+    brc_rows_free(&rows);
+    return status;
+}
