@@ -9,14 +9,15 @@
 
 #include "../host/device/device.h"
 #include "rows.h"
+#include "throughput.h"
 
-enum { BRC_RANKS_SIZES = 16, BRC_RANKS_BLOCK = 1024 /* rows of a sum block */ };
+enum { BRC_RANKS_BLOCK = 1024 /* rows of a sum block */ };
 
 typedef struct brc_ranks_request {
     int n_sizes;
-    int64_t sizes[BRC_RANKS_SIZES]; /* elements wanted */
-    bool surface, exchange, step;   /* kinds of rows */
-    int64_t n_steps;                /* of each sample */
+    int64_t sizes[BRC_THROUGHPUT_LIST]; /* elements wanted */
+    bool surface, exchange, step;       /* kinds of rows */
+    int64_t n_steps;                    /* of each sample */
     const char *device;
     brc_precision precision;
     int n_threads; /* 0: as OpenMP decides */

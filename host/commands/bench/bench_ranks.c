@@ -1,7 +1,7 @@
 #include "bench_ranks.h"
+#include "bench_options.h"
 #include "../../../bench/ranks.h"
 #include "../../base/ranks.h"
-#include <stdlib.h>
 #include <string.h>
 
 static brc_status print_row(void *self, const brc_rows *rows)
@@ -31,42 +31,29 @@ static brc_status print_row(void *self, const brc_rows *rows)
     return brc_rows_write(rows, self);
 }
 
-static brc_status refuse_others(brc_context *context, const brc_arguments *arguments)
-{
-    static const char *const others[] = {"models", "exact",  "sample",   "copy",   "quick",
-                                         "folder", "resume", "elements", "poisson"};
-    for (size_t k = 0; k < sizeof others / sizeof *others; ++k)
-        if (brc_arguments_value(arguments, others[k]))
-            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: --%s is not for this bench", others[k]);
-    return BRC_OK;
-}
-
 static brc_status take_sizes(brc_context *context, const brc_arguments *arguments, brc_ranks_request *out)
 {
-    const char *given = brc_arguments_value(arguments, "sizes"), *piece[BRC_RANKS_SIZES];
-    char copy[256], *end;
-    snprintf(copy, sizeof copy, "%s", given ? given : "1e4,1e5");
-    out->n_sizes = brc_text_split(copy, BRC_RANKS_SIZES, piece);
+    const char *piece[BRC_THROUGHPUT_LIST];
+    char copy[256];
+    double size;
+    BRC_TRY(brc_bench_take_list(context, arguments, "sizes", "1e4,1e5", copy, sizeof copy, piece, &out->n_sizes));
     for (int k = 0; k < out->n_sizes; ++k) {
-        const double size = strtod(piece[k], &end);
-        if (*end || !(size >= 8 && size <= 1e9)) out->n_sizes = -1;
+        BRC_TRY(brc_bench_take_number(context, "sizes", piece[k], 8, 1e9, &size));
         out->sizes[k] = (int64_t)size;
     }
-    if (out->n_sizes < 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: --sizes '%s': expected numbers from 8 to 1e9",
-                        given ? given : "");
     return BRC_OK;
 }
 
 /* surface, exchange, step; without a word: what the ranks that there are can do. */
 static brc_status take_kinds(brc_context *context, const brc_arguments *arguments, brc_ranks_request *out)
 {
-    const char *given = brc_arguments_value(arguments, "problems"), *piece[3];
+    const char *piece[BRC_THROUGHPUT_LIST];
     char copy[64];
+    int n = 0;
     bool *const kinds[] = {&out->surface, &out->exchange, &out->step};
     static const char *const names[] = {"surface", "exchange", "step"};
-    snprintf(copy, sizeof copy, "%s", given ? given : brc_ranks_count() == 1 ? "surface,step" : "exchange");
-    const int n = brc_text_split(copy, 3, piece);
+    BRC_TRY(brc_bench_take_list(context, arguments, "problems", brc_ranks_count() == 1 ? "surface,step" : "exchange",
+                                copy, sizeof copy, piece, &n));
     for (int k = 0; k < n; ++k) {
         int kind = 0;
         while (kind < 3 && strcmp(piece[k], names[kind]) != 0)
@@ -74,7 +61,6 @@ static brc_status take_kinds(brc_context *context, const brc_arguments *argument
         if (kind == 3) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: no problem '%s'", piece[k]);
         *kinds[kind] = true;
     }
-    if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: --problems surface,exchange,step");
     if (out->step && brc_ranks_count() > 1)
         return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: steps do not run on %d ranks yet",
                         (int)brc_ranks_count());
@@ -83,13 +69,15 @@ static brc_status take_kinds(brc_context *context, const brc_arguments *argument
 
 brc_status brc_bench_ranks(const brc_session *session, const brc_arguments *arguments)
 {
+    static const char *const others[] = {"models", "exact",  "sample",   "copy",   "quick",
+                                         "folder", "resume", "elements", "poisson"};
     brc_context *context = session->context;
     const char *output = brc_arguments_value(arguments, "output"),
                *precision = brc_arguments_value(arguments, "precisions"),
                *device = brc_arguments_value(arguments, "devices");
     char folder[512];
     int64_t n_threads;
-    BRC_TRY(refuse_others(context, arguments));
+    BRC_TRY(brc_bench_refuse_options(context, arguments, "ranks", sizeof others / sizeof *others, others));
     snprintf(folder, sizeof folder, "%s", output ? output : "results/ranks");
     brc_ranks_request request = {.device = device ? device : "cpu", .row = print_row, .self = folder};
     BRC_TRY(take_sizes(context, arguments, &request));
