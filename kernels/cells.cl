@@ -13,58 +13,6 @@
 #define CELLS_SHEAR 3
 #define CELLS_DETACHED 4
 
-/* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n /
- * W] is 1; cells_check puts it back to 0. */
-LAW void cells_force_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
-                        GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau,
-                        GATHER(coeff) modulus, OWN(coeff) gradient, OWN(coeff) stress, OWN(coeff) plane,
-                        OWN(coeff) limit, PUT(state) force, PUT(int) look)
-{
-    const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
-    const cell_side side =
-        cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
-    members_records_ahead9(who, gradient);
-    members_records_ahead9(who, stress);
-    lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-    lane least = LANE_ZERO + CELLS_NEVER;
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_pull b =
-            dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
-        members_ahead1(who, limit, slot);
-        f = lane_vec3_add(f, b.force);
-        least =
-            lane_min(least, cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
-    }
-    members_store3(who, force, f);
-    if (LANE_ANY_SHORT(least, LANE_ZERO)) {
-#define LOOK(l)                                                                                                        \
-    if (!(LANE_ITEM(least, l) >= 0)) STORE_SAME(look + LANE_ITEM(who.own, l) / W, 1);
-        LANE_EACH(LOOK)
-#undef LOOK
-    }
-}
-KERNEL void cells_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
-                        GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
-                        coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient, OWN(coeff) stress,
-                        OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        cells_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one,
-                       one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
-    }
-}
-KERNEL void cells_force_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
-                               OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux,
-                               GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus,
-                               OWN(coeff) gradient, OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit,
-                               PUT(state) force, PUT(int) look)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        cells_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part,
-                       k_one, one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
-    }
-}
-
 /* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; found [n_groups]. With
  * share 1 only groups that the force pass told to look at their bonds do. */
 KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,

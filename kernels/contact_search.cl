@@ -164,7 +164,7 @@ KERNEL void contact_changed(int n_pairs, int n, OWN(int) ends, GATHER(int) fresh
     }
 }
 /* The elements of these pairs are given the level `to` where they have none (rings.cl). */
-KERNEL void contact_spread(int n_items, int n, int to, OWN(int) todo, OWN(int) ends, GLOBAL int *level)
+KERNEL void contact_spread(int n_items, int n, int to, OWN(int) todo, OWN(int) ends, SCATTER(int) level)
 {
     FOR_EACH_ITEM(k, n_items) {
         const int i = ends[2 * (brc_size)todo[k]], j = ends[2 * (brc_size)todo[k] + 1];

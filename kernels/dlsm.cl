@@ -1,35 +1,7 @@
-/* dlsm: the four passes over elements and their bonds (docs/notebook/theory.md T2). Each gathers, calls the laws, and
- * writes its own elements; nothing is scattered. One work-item does W elements: a group of all, or in the kernels named
- * `listed` those of a list (members.cl). boundary[slice]: the slice's block of the face-load arrays, -1 when none of
- * its elements has a free face; only read in scenes with face loads. */
-
-/* Pass 1: least-squares displacement gradient H [-] [n][9]. area [slot][3][C], inv_shape A^-1 [slice][6][C]. */
-LAW void dlsm_gradient_of(members who, OWN(int) neighbour, OWN(coeff) area, GATHER(state) displacement,
-                          OWN(coeff) inv_shape, PUT(coeff) gradient)
-{
-    const state_vec3 u = state_gather3(displacement, who.own);
-    lane_mat3 a = lane_mat3_zero();
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_int j = members_neighbour(who, neighbour, slot);
-        members_ahead3(who, area, slot);
-        a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u), members_face3(who, area, slot));
-    }
-    members_store9(who, gradient, lane_mat3_mul_sym(a, members_block6(who, inv_shape)));
-}
-KERNEL void dlsm_gradient(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
-                          GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        dlsm_gradient_of(members_of_group(group, row_start), neighbour, area, displacement, inv_shape, gradient);
-    }
-}
-KERNEL void dlsm_gradient_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
-                                 OWN(coeff) area, GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        dlsm_gradient_of(members_of_list(item, n, list, row_start), neighbour, area, displacement, inv_shape, gradient);
-    }
-}
+/* dlsm: what the four passes over elements and their bonds (dlsm_passes.cl; docs/notebook/theory.md T2) are made of.
+ * Each gathers, calls the laws, and writes its own elements; nothing is scattered. One work-item does W elements: a
+ * group of all, or in the kernels named `listed` those of a list (members.cl). boundary[slice]: the slice's block of
+ * the face-load arrays, -1 when none of its elements has a free face; only read in scenes with face loads. */
 
 /* G = F - I [-], from H and, where faces are held, from their part [boundary block][9][C] of V G. */
 LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
@@ -54,37 +26,6 @@ LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) ar
 LAW lane_mat3 dlsm_first_piola(lane_mat3 g, lane lambda, lane mu, int finite)
 {
     return push_forward(g, svk_stress(green_strain(g, finite), lambda, mu), finite);
-}
-
-/* Pass 2: first Piola-Kirchhoff stress P [Pa] [n][9]. offset d [slot][3][C]. */
-LAW void dlsm_stress_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset, GATHER(coeff) gradient,
-                        OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_gradient, int face_loads,
-                        coeff lambda_one, coeff mu_one, OWN(coeff) material, int finite, PUT(coeff) stress)
-{
-    const lane_mat3 g =
-        dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads);
-    const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
-    members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
-}
-KERNEL void dlsm_stress(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
-                        GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_gradient,
-                        int face_loads, coeff lambda_one, coeff mu_one, OWN(coeff) material, int finite,
-                        PUT(coeff) stress)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        dlsm_stress_of(members_of_group(group, row_start), neighbour, area, offset, gradient, inv_volume, boundary,
-                       held_gradient, face_loads, lambda_one, mu_one, material, finite, stress);
-    }
-}
-KERNEL void dlsm_stress_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
-                               OWN(coeff) area, OWN(coeff) offset, GATHER(coeff) gradient, OWN(coeff) inv_volume,
-                               OWN(int) boundary, OWN(coeff) held_gradient, int face_loads, coeff lambda_one,
-                               coeff mu_one, OWN(coeff) material, int finite, PUT(coeff) stress)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        dlsm_stress_of(members_of_list(item, n, list, row_start), neighbour, area, offset, gradient, inv_volume,
-                       boundary, held_gradient, face_loads, lambda_one, mu_one, material, finite, stress);
-    }
 }
 
 /* What the bond in one slot adds in pass 3: to the sums of gradients ... */
@@ -193,36 +134,6 @@ LAW lane_mat3 dlsm_flux_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN
     return lane_mat3_add(b, lane_mat3_scale(k * one_plus_tau, part));
 #endif
 }
-KERNEL void dlsm_flux_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
-                           OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
-                           OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment,
-                           int face_loads, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                           OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite,
-                           PUT(coeff) flux, PUT(coeff) bond_part)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        const members who = members_of_group(group, row_start);
-        members_store9(who, flux,
-                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
-                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
-                                    material, modulus, ell_of, finite, bond_part));
-    }
-}
-KERNEL void dlsm_flux_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
-                             OWN(coeff) offset, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
-                             GATHER(coeff) stress, OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary,
-                             OWN(coeff) held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
-                             coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
-                             int finite, PUT(coeff) flux, PUT(coeff) bond_part)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        const members who = members_of_list(item, n, list, row_start);
-        members_store9(who, flux,
-                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
-                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
-                                    material, modulus, ell_of, finite, bond_part));
-    }
-}
 
 /* What pass 4 knows of its own elements, and of one bond. */
 typedef struct {
@@ -266,40 +177,6 @@ LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, OWN(int) neighbo
     const lane spring = own.spring;
 #endif
     return (dlsm_pull){dlsm_bond_force(sum, s, spring, q, jump), jump, s, q};
-}
-
-/* Pass 4: force f [N] [n][3] on every element. */
-LAW void dlsm_force_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
-                       GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau,
-                       GATHER(coeff) modulus, PUT(state) force)
-{
-    const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
-    lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_pull b =
-            dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part, one_plus_tau, modulus);
-        f = lane_vec3_add(f, b.force);
-    }
-    members_store3(who, force, f);
-}
-KERNEL void dlsm_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
-                       GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
-                       coeff one_plus_tau, GATHER(coeff) modulus, PUT(state) force)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        dlsm_force_of(members_of_group(group, row_start), neighbour, area, ratio, displacement, flux, bond_part, k_one,
-                      one_plus_tau, modulus, force);
-    }
-}
-KERNEL void dlsm_force_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
-                              OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux,
-                              GATHER(coeff) bond_part, coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus,
-                              PUT(state) force)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        dlsm_force_of(members_of_list(item, n, list, row_start), neighbour, area, ratio, displacement, flux, bond_part,
-                      k_one, one_plus_tau, modulus, force);
-    }
 }
 
 /* V psi [J] of the elements: of G, ... */
@@ -357,48 +234,6 @@ LAW lane dlsm_bonds_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coe
         energy += counts * dlsm_residual_energy(residual, compact, q, k_bond, beta, one_plus_tau);
     }
     return energy;
-}
-
-/* Ledger: elastic energy V psi and half of the stabilisation energy of its bonds, of every element [J] [n]. */
-LAW void dlsm_energy_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset, OWN(coeff) ratio,
-                        GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
-                        OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one, coeff k_one,
-                        coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus,
-                        GATHER(coeff) ell_of, int finite, PUT(state) elastic, PUT(state) stabilisation)
-{
-    members_store1(who, elastic,
-                   dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
-                                   face_loads, lambda_one, mu_one, material, finite));
-    members_store1(who, stabilisation,
-                   dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta,
-                                 one_plus_tau, material, modulus, ell_of, finite, 0, neighbour));
-}
-KERNEL void dlsm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
-                        OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) inv_volume,
-                        OWN(int) boundary, OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
-                        coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material,
-                        GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, PUT(state) elastic,
-                        PUT(state) stabilisation)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        dlsm_energy_of(members_of_group(group, row_start), neighbour, area, offset, ratio, displacement, gradient,
-                       inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, k_one, ell_one, beta,
-                       one_plus_tau, material, modulus, ell_of, finite, elastic, stabilisation);
-    }
-}
-KERNEL void dlsm_energy_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
-                               OWN(coeff) area, OWN(coeff) offset, OWN(coeff) ratio, GATHER(state) displacement,
-                               GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
-                               OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one, coeff k_one,
-                               coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material,
-                               GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, PUT(state) elastic,
-                               PUT(state) stabilisation)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        dlsm_energy_of(members_of_list(item, n, list, row_start), neighbour, area, offset, ratio, displacement,
-                       gradient, inv_volume, boundary, held_gradient, face_loads, lambda_one, mu_one, k_one, ell_one,
-                       beta, one_plus_tau, material, modulus, ell_of, finite, elastic, stabilisation);
-    }
 }
 
 /* Around broken bonds: V psi of the elements of a list alone [J] ... */

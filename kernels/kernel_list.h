@@ -37,7 +37,7 @@
     X(dlsm_deformation)                                                                                                \
     X(dlsm_gradient_listed)                                                                                            \
     X(dlsm_stress_listed)                                                                                              \
-    X(dlsm_flux_listed)                                                                                                \
+    X(dlsm_flux_pass_listed)                                                                                           \
     X(dlsm_force_listed)                                                                                               \
     X(dlsm_energy_listed)                                                                                              \
     X(dlsm_elastic_listed)                                                                                             \
@@ -54,7 +54,7 @@
     X(published_force_pass)                                                                                            \
     X(published_energy)                                                                                                \
     X(traction_turned_pass)                                                                                            \
-    X(published_force_listed)                                                                                          \
+    X(published_force_pass_listed)                                                                                     \
     X(published_energy_listed)                                                                                         \
     X(advance_rotation)                                                                                                \
     X(add_spin_energy)                                                                                                 \

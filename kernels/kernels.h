@@ -53,3 +53,26 @@
 #include "beam_carried.h"
 #include "beam_softening.cl"
 #include "beam_closure.cl"
+
+/* Passes are compiled twice from one text: over all elements ... */
+#define PASS(name) name
+#define PASS_ITEMS int n_items
+#define PASS_MEMBERS(item, row_start) members_of_group(item, row_start)
+#define PASS_ELEMENT(item, l) ((item)*W + (l))
+#include "dlsm_passes.cl"
+#include "published_passes.cl"
+#undef PASS
+#undef PASS_ITEMS
+#undef PASS_MEMBERS
+#undef PASS_ELEMENT
+/* ... and, `_listed` behind their names, over the n elements of a list, whose last stands in for those behind it. */
+#define PASS(name) name##_listed
+#define PASS_ITEMS int n_items, int n, OWN(int) list
+#define PASS_MEMBERS(item, row_start) members_of_list(item, n, list, row_start)
+#define PASS_ELEMENT(item, l) list[(item)*W + (l) < n ? (item)*W + (l) : n - 1]
+#include "dlsm_passes.cl"
+#include "published_passes.cl"
+#undef PASS
+#undef PASS_ITEMS
+#undef PASS_MEMBERS
+#undef PASS_ELEMENT

@@ -202,7 +202,7 @@ LAW int brc_lane_any_short(lane a, lane b)
 
 /* How a kernel uses an array, by rows: those of the item's own elements, their slots, slices, faces and pairs, and all
  * others, as of neighbours. Read at its own; read at others too; written at its own; read and written at its own;
- * written, and others read or written too. tests/kernels/markers.py checks them all. */
+ * written, and others read or written too. tests/kernels/test_kernel_markers.py checks all. */
 #define OWN(type) GLOBAL const type *restrict
 #define GATHER(type) GLOBAL const type *restrict
 #define PUT(type) GLOBAL type *restrict

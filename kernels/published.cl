@@ -1,11 +1,5 @@
-/* dlsm-published: the two passes over elements and their bonds (AGH19).
+/* dlsm-published: the two passes over elements and their bonds (AGH19), that of forces in published_passes.cl.
  * branch R = X_j - X_i [slot][3][C] (missing neighbours: a unit branch home with zero area), area S [slot][C]. */
-
-#if BRC_MANY_MATERIALS
-#define MATERIAL(component, scalar) lane_block(material, slice, 4, component, lane0)
-#else
-#define MATERIAL(component, scalar) (LANE_ZERO + (scalar))
-#endif
 
 /* a = sum (u_j - u_i) (x) w R [m^2], times inv_shape. */
 LAW lane_mat3 published_fit(members who, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) area, int area_weights,
@@ -108,50 +102,6 @@ LAW published_bond published_bond_at(members who, int slot, published_own own, O
                                        rotation_factor, couple, 0);
 }
 
-/* Force [N] and torque about its own centre [N m] on every element [n][3]. */
-LAW void published_force_of(members who, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) area,
-                            GATHER(state) displacement, GATHER(state) orientation, GATHER(coeff) strain,
-                            coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
-                            GATHER(coeff) lame_of, int finite, PUT(state) force, PUT(state) torque)
-{
-    const published_own own = published_own_of(who.own, displacement, orientation, strain);
-    lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const published_bond b =
-            published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain, lambda_one,
-                              mu_one, young_one, rotation_factor, couple, lame_of, finite);
-        f = lane_vec3_add(f, b.force);
-        t = lane_vec3_add(t, b.torque);
-    }
-    members_store3(who, force, f);
-    members_store3(who, torque, t);
-}
-KERNEL void published_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
-                                 OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
-                                 GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                 coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, int finite,
-                                 PUT(state) force, PUT(state) torque)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        published_force_of(members_of_group(group, row_start), neighbour, branch, area, displacement, orientation,
-                           strain, lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, finite, force,
-                           torque);
-    }
-}
-KERNEL void published_force_listed(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour,
-                                   OWN(coeff) branch, OWN(coeff) area, GATHER(state) displacement,
-                                   GATHER(state) orientation, GATHER(coeff) strain, coeff lambda_one, coeff mu_one,
-                                   coeff young_one, coeff rotation_factor, coeff couple, GATHER(coeff) lame_of,
-                                   int finite, PUT(state) force, PUT(state) torque)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        published_force_of(members_of_list(item, n, list, row_start), neighbour, branch, area, displacement,
-                           orientation, strain, lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, finite,
-                           force, torque);
-    }
-}
-#undef MATERIAL
-
 /* Strain energy V sigma:e / 2 of the least-squares strain [J] [n]. Not the potential of the forces (there is none). */
 LAW state published_energy_of(int e, OWN(coeff) strain, OWN(state) volume, coeff lambda_one, coeff mu_one,
                               OWN(coeff) lame_of)
@@ -165,20 +115,6 @@ LAW state published_energy_of(int e, OWN(coeff) strain, OWN(state) volume, coeff
     const coeff trace = s[0] + s[1] + s[2];
     const coeff square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + REAL(2) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
     return volume[e] * (state)(REAL(0.5) * lambda * trace * trace + mu * square);
-}
-KERNEL void published_energy(int n, OWN(coeff) strain, OWN(state) volume, coeff lambda_one, coeff mu_one,
-                             OWN(coeff) lame_of, PUT(state) elastic)
-{
-    FOR_EACH_ITEM(e, n) { elastic[e] = published_energy_of(e, strain, volume, lambda_one, mu_one, lame_of); }
-}
-KERNEL void published_energy_listed(int n_items, int n, OWN(int) list, OWN(coeff) strain, OWN(state) volume,
-                                    coeff lambda_one, coeff mu_one, OWN(coeff) lame_of, PUT(state) elastic)
-{
-    FOR_EACH_ITEM(item, n_items) {
-        const int end = (item + 1) * W < n ? (item + 1) * W : n;
-        for (int k = item * W; k < end; ++k)
-            elastic[list[k]] = published_energy_of(list[k], strain, volume, lambda_one, mu_one, lame_of);
-    }
 }
 
 /* R - I of an orientation (finite), or of the rotation vector it stands for: twice its vector part. out [9] by rows. */

@@ -14,11 +14,13 @@
 #define RING_PLACE(level) ((level) >> 2)
 #define RING_IS_OUTER(level) (((level) >> 1) & 1)
 
-/* Elements whose origin is `from` and their neighbours are given the level `to` where they have none. */
-KERNEL void ring_spread(int n_groups, int from, int to, OWN(int) row_start, OWN(int) neighbour,
-                        GLOBAL const int *origin, GLOBAL int *level)
+/* Elements whose level (by_level), or who are touched as, `from`, and their neighbours are given the level `to` where
+ * they have none. */
+KERNEL void ring_spread(int n_groups, int from, int to, int by_level, OWN(int) row_start, OWN(int) neighbour,
+                        OWN(int) touched, SCATTER(int) level)
 {
     FOR_EACH_ITEM(group, n_groups) {
+        GLOBAL const int *const origin = by_level ? level : touched;
         const lane_int is_from = int_load(origin, (brc_size)group * W) == from;
         for (int e = group * W; LANE_ANY(is_from) && e < group * W + W; ++e) {
             if (origin[e] != from) continue;

@@ -1,9 +1,9 @@
 /* What all backends share: checks, sentences, counting, and finding each kernel once. */
 #include "device_internal.h"
 #include "device_list.h"
-#include "kernel_signature.h"
 #include "../base/memory.h"
 #include "../base/ranks.h"
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -389,7 +389,7 @@ brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **ou
         brc_memory_free(kernel);
         return status;
     }
-    kernel->parameters = brc_kernel_signature(name, kernel->kinds);
+    brc_kernel_signature_read(name, &kernel->signature);
     kernel->next = device->kernels;
     device->kernels = kernel;
     *out = kernel;
@@ -403,13 +403,23 @@ const char *brc_kernel_name(const brc_kernel *kernel)
 
 int brc_kernel_parameters(const brc_kernel *kernel)
 {
-    return (int)strlen(kernel->kinds[0]);
+    return kernel->signature.n;
 }
 
 brc_arg_kind brc_kernel_parameter(const brc_kernel *kernel, int k, char *name, size_t bytes)
 {
-    brc_kernel_parameter_name(kernel->parameters, k, name, bytes);
-    return (brc_arg_kind)(strchr(BRC_KERNEL_LETTERS, kernel->kinds[0][k]) - BRC_KERNEL_LETTERS);
+    const char *const text = kernel->signature.name[k];
+    size_t length = 0;
+    while (length + 1 < bytes && (isalnum((unsigned char)text[length]) || text[length] == '_'))
+        ++length;
+    memcpy(name, text, length);
+    name[length] = '\0';
+    return (brc_arg_kind)(strchr(BRC_KERNEL_LETTERS, kernel->signature.kinds[k]) - BRC_KERNEL_LETTERS);
+}
+
+brc_use brc_kernel_use(const brc_kernel *kernel, int k)
+{
+    return kernel->signature.use[k];
 }
 
 brc_packed_arg brc_arg_pack(const brc_device *device, const brc_arg *arg)
@@ -454,15 +464,14 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
     if (n_args > BRC_KERNEL_MOST_ARGS)
         return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: %d arguments, %d at most", kernel->name, n_args,
                         (int)BRC_KERNEL_MOST_ARGS);
-    if (kernel->kinds[0][0] && !kinds_match(kernel->kinds[0], n_args, args) &&
-        !(kernel->kinds[1][0] && kinds_match(kernel->kinds[1], n_args, args))) {
+    if (kernel->signature.n && !kinds_match(kernel->signature.kinds, n_args, args)) {
         char given[BRC_KERNEL_MOST_ARGS + 1];
         for (int a = 0; a < n_args; ++a)
             given[a] = BRC_KERNEL_LETTERS[args[a].kind];
         given[n_args] = '\0';
         return BRC_FAIL(context, BRC_INTERNAL,
                         "kernel %s takes %s (b buffer, i int, s state, c coeff, d double), was given %s", kernel->name,
-                        kernel->kinds[0], given);
+                        kernel->signature.kinds, given);
     }
     if (n_items < 0 || n_items > INT32_MAX)
         return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: %lld work-items", kernel->name, (long long)n_items);

@@ -123,6 +123,20 @@ typedef struct brc_arg {
 #define BRC_COEFF(x) ((brc_arg){.kind = BRC_ARG_COEFF, .value.real = (x)})
 #define BRC_DBL(x) ((brc_arg){.kind = BRC_ARG_DOUBLE, .value.real = (x)})
 
+/* Uses of a parameter: a value, or an array by the markers of kernels/portable.h. */
+typedef enum brc_use {
+    BRC_USE_VALUE,
+    BRC_USE_OWN,
+    BRC_USE_GATHER,
+    BRC_USE_PUT,
+    BRC_USE_UPDATE,
+    BRC_USE_SCATTER
+} brc_use;
+static inline bool brc_use_writes(brc_use use)
+{
+    return use == BRC_USE_PUT || use == BRC_USE_UPDATE || use == BRC_USE_SCATTER;
+}
+
 /* A kernel of the run's instance, found once by name; owned by the device. BRC_INTERNAL: no such kernel. */
 typedef struct brc_kernel brc_kernel;
 brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **out);
@@ -131,6 +145,8 @@ const char *brc_kernel_name(const brc_kernel *kernel);
  * k-th. */
 int brc_kernel_parameters(const brc_kernel *kernel);
 brc_arg_kind brc_kernel_parameter(const brc_kernel *kernel, int k, char *name, size_t bytes);
+/* How it uses its k-th parameter, by the marker in the text (kernels/portable.h). */
+brc_use brc_kernel_use(const brc_kernel *kernel, int k);
 /* Enqueue over `n_items` work-items (FOR_EACH_ITEM: one each; FOR_EACH_SLICE: n_items = slices * C / W). Launches run
  * in order; nothing waits. The number and kinds of arguments are checked against the kernel's own in debug builds. */
 brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);

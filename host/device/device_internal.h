@@ -3,9 +3,9 @@
 #ifndef BRC_DEVICE_INTERNAL_H
 #define BRC_DEVICE_INTERNAL_H
 
-#include "device.h"
+#include "kernel_signature.h"
 
-enum { BRC_KERNEL_MOST_ARGS = 64, BRC_REASON_BYTES = 256 };
+enum { BRC_REASON_BYTES = 256 };
 
 /* A backend. Functions returning bool give false for "no room", with the reason in `reason` (may stay ""). */
 typedef struct brc_backend {
@@ -58,10 +58,9 @@ struct brc_kernel {
     brc_kernel *next;
     char name[64];
     int64_t launches;
-    char kinds[2][BRC_KERNEL_MOST_ARGS + 1]; /* its parameters, one letter each (kernel_signature.h); "": unknown */
-    const char *parameters;                  /* the text of its (first) list, behind the bracket; NULL: unknown */
-    void (*function)(void);                  /* C builds */
-    void *inside;                            /* the backend's own */
+    brc_kernel_signature signature;
+    void (*function)(void); /* C builds */
+    void *inside;           /* the backend's own */
 };
 
 /* "opencl:0 (NVIDIA H100, 555.42)": the device in sentences. */

@@ -9,88 +9,116 @@ static bool is_word(char c)
     return isalnum((unsigned char)c) || c == '_';
 }
 
-/* Letter of one parameter, the text [from, to); 0 when it is none of the vocabulary's. */
-static char letter_of(const char *from, const char *to)
+const char *brc_kernel_text(const char *file)
 {
-    while (from < to && isspace((unsigned char)*from))
-        ++from;
+    for (int f = 0; f < brc_kernel_file_count; ++f)
+        if (strcmp(brc_kernel_files[f].name, file) == 0) return brc_kernel_files[f].text;
+    return NULL;
+}
+
+/* Whether the word at `text` is this one. */
+static bool begins(const char *text, const char *word)
+{
+    const size_t length = strlen(word);
+    return strncmp(text, word, length) == 0 && !is_word(text[length]);
+}
+
+/* One parameter, the text [from, to); false when it is none of the vocabulary's. */
+static bool read_parameter(const char *from, const char *to, brc_kernel_signature *out)
+{
     static const struct {
         const char *word;
         char letter;
-    } words[] = {{"OWN", 'b'}, {"GATHER", 'b'}, {"PUT", 'b'},   {"UPDATE", 'b'}, {"SCATTER", 'b'},
-                 {"int", 'i'}, {"state", 's'},  {"coeff", 'c'}, {"double", 'd'}};
-    if (memchr(from, '*', (size_t)(to - from))) return 'b';
-    if (to - from > 6 && strncmp(from, "const ", 6) == 0) from += 6;
+        brc_use use;
+    } words[] = {{"OWN", 'b', BRC_USE_OWN},       {"GATHER", 'b', BRC_USE_GATHER},   {"PUT", 'b', BRC_USE_PUT},
+                 {"UPDATE", 'b', BRC_USE_UPDATE}, {"SCATTER", 'b', BRC_USE_SCATTER}, {"int", 'i', BRC_USE_VALUE},
+                 {"state", 's', BRC_USE_VALUE},   {"coeff", 'c', BRC_USE_VALUE},     {"double", 'd', BRC_USE_VALUE}};
+    while (from < to && isspace((unsigned char)*from))
+        ++from;
+    if (memchr(from, '*', (size_t)(to - from))) return false;
+    if (begins(from, "const")) from += sizeof "const";
     for (size_t k = 0; k < sizeof words / sizeof words[0]; ++k) {
-        const size_t length = strlen(words[k].word);
-        if ((size_t)(to - from) > length && strncmp(from, words[k].word, length) == 0 && !is_word(from[length]))
-            return words[k].letter;
+        if (!begins(from, words[k].word)) continue;
+        while (to > from && !is_word(to[-1]))
+            --to;
+        while (to > from && is_word(to[-1]))
+            --to;
+        out->kinds[out->n] = words[k].letter;
+        out->use[out->n] = words[k].use;
+        out->name[out->n++] = to;
+        return to > from;
     }
-    return 0;
+    return false;
 }
 
-/* Where the parameter at `from` ends: at its comma, or at the bracket that closes the list. */
-static const char *end_of(const char *from)
+/* The items of a pass in one of its two readings: the first, over all elements, or the second, over a list. */
+static const char *pass_items(bool listed, const char **end)
+{
+    static const char define[] = "#define PASS_ITEMS ";
+    const char *text = brc_kernel_text("kernels.h");
+    text = text ? strstr(text, define) : NULL;
+    if (text && listed) text = strstr(text + 1, define);
+    if (!text) return NULL;
+    text += sizeof define - 1;
+    *end = text + strcspn(text, "\n");
+    return text;
+}
+
+/* Where the list goes on: at its next comma, or at the bracket that closes it or the end of the text. */
+static const char *end_of(const char *from, const char *end)
 {
     int depth = 0;
-    for (; *from && (depth > 0 || (*from != ',' && *from != ')')); ++from)
+    for (; from < end && (depth > 0 || (*from != ',' && *from != ')')); ++from)
         depth += *from == '(' ? 1 : *from == ')' ? -1 : 0;
     return from;
 }
 
-/* The list that begins behind '(' at `text`; false when a parameter is not understood. */
-static bool read_list(const char *text, char kinds[BRC_KERNEL_MOST_ARGS + 1])
+/* The list in [from, end), or up to the bracket that closes it. */
+static bool read_list(const char *from, const char *end, bool listed, brc_kernel_signature *out)
 {
-    int n = 0;
-    for (const char *from = text; n < BRC_KERNEL_MOST_ARGS;) {
-        const char *const to = end_of(from);
-        const char letter = letter_of(from, to);
-        if (!letter) break;
-        kinds[n++] = letter;
-        if (*to == ')') {
-            kinds[n] = '\0';
-            return true;
+    while (out->n < BRC_KERNEL_MOST_ARGS) {
+        const char *const to = end_of(from, end);
+        if (begins(from, "PASS_ITEMS")) {
+            const char *items_end = NULL, *const items = pass_items(listed, &items_end);
+            if (!items || !read_list(items, items_end, listed, out)) return false;
+        } else if (!read_parameter(from, to, out)) {
+            return false;
         }
-        if (*to != ',') break;
+        if (to >= end || *to == ')') return true;
         from = to + 1;
     }
-    kinds[0] = '\0';
     return false;
 }
 
-void brc_kernel_parameter_name(const char *parameters, int k, char *name, size_t bytes)
+/* What is behind the bracket that opens the parameters, where the text at `word` is the kernel's name. */
+static const char *list_of(const char *word, const char *name, bool *listed)
 {
-    const char *from = parameters;
-    for (; k > 0; --k)
-        from = end_of(from) + 1;
-    const char *to = end_of(from);
-    while (to > from && !is_word(to[-1]))
-        --to;
-    for (from = to; is_word(from[-1]);)
-        --from;
-    const size_t length = (size_t)(to - from) < bytes ? (size_t)(to - from) : bytes - 1;
-    memcpy(name, from, length);
-    name[length] = '\0';
+    const size_t length = strlen(name);
+    *listed = false;
+    if (strncmp(word, name, length) == 0 && word[length] == '(') return word + length + 1;
+    if (strncmp(word, "PASS(", 5) != 0) return NULL;
+    word += 5;
+    const size_t base = strcspn(word, ")");
+    if (strncmp(word, name, base) != 0 || strncmp(word + base, ")(", 2) != 0) return NULL;
+    *listed = strcmp(name + base, "_listed") == 0;
+    return *listed || name[base] == '\0' ? word + base + 2 : NULL;
 }
 
-const char *brc_kernel_signature(const char *name, char kinds[2][BRC_KERNEL_MOST_ARGS + 1])
+void brc_kernel_signature_read(const char *name, brc_kernel_signature *out)
 {
     static const char head[] = "KERNEL void";
-    const size_t length = strlen(name);
-    const char *parameters = NULL;
-    int n = 0;
-    kinds[0][0] = kinds[1][0] = '\0';
+    int found = 0;
+    *out = (brc_kernel_signature){0};
     for (int f = 0; f < brc_kernel_file_count; ++f)
         for (const char *at = strstr(brc_kernel_files[f].text, head); at; at = strstr(at + 1, head)) {
-            const char *word = at + sizeof head - 1;
-            word += strspn(word, " \n");
-            if (strncmp(word, name, length) != 0 || word[length] != '(') continue;
-            if (n == 2 || !read_list(word + length + 1, kinds[n])) { /* more than can be told apart: check nothing */
-                kinds[0][0] = kinds[1][0] = '\0';
-                return NULL;
+            bool listed = false;
+            const char *const word = at + sizeof head - 1 + strspn(at + sizeof head - 1, " \n"), *const list =
+                                                                                                     list_of(word, name,
+                                                                                                             &listed);
+            if (!list) continue;
+            if (++found > 1 || !read_list(list, list + strlen(list), listed, out)) {
+                *out = (brc_kernel_signature){0};
+                return;
             }
-            if (n == 0) parameters = word + length + 1;
-            ++n;
         }
-    return parameters;
 }

@@ -2,7 +2,7 @@
 #ifndef BRC_KERNEL_SIGNATURE_H
 #define BRC_KERNEL_SIGNATURE_H
 
-#include "device_internal.h"
+#include "device.h"
 
 /* One file of kernels/, embedded at build time (kernel_sources.cmake). */
 typedef struct brc_kernel_file {
@@ -11,16 +11,23 @@ typedef struct brc_kernel_file {
 } brc_kernel_file;
 extern const brc_kernel_file brc_kernel_files[];
 extern const int brc_kernel_file_count;
+/* The text of one of them; NULL where it is not embedded. */
+const char *brc_kernel_text(const char *file);
 
+enum { BRC_KERNEL_MOST_ARGS = 64 };
 /* One letter per kind of argument, in the order of brc_arg_kind. */
 #define BRC_KERNEL_LETTERS "biscd"
 
-/* Read the parameter list(s) of `KERNEL void name(...)` from the embedded sources: one string of letters per
- * definition, at most two (one per branch of BRC_MANY_MATERIALS). "" when the text is not of that form (a parameter
- * that hides in a macro, say): launches of that kernel are then not checked. Returns the first list's text, behind its
- * bracket; NULL where there is none. */
-const char *brc_kernel_signature(const char *name, char kinds[2][BRC_KERNEL_MOST_ARGS + 1]);
-/* The name of the k-th parameter of such a text. */
-void brc_kernel_parameter_name(const char *parameters, int k, char *name, size_t bytes);
+typedef struct brc_kernel_signature {
+    int n;                                  /* parameters; 0: the text is not of the form of portable.md */
+    char kinds[BRC_KERNEL_MOST_ARGS + 1];   /* a letter each */
+    brc_use use[BRC_KERNEL_MOST_ARGS];      /* by their markers */
+    const char *name[BRC_KERNEL_MOST_ARGS]; /* in the text: ends where a word does */
+} brc_kernel_signature;
+
+/* Read the parameters of `KERNEL void name(...)`, or of a pass `KERNEL void PASS(name)(PASS_ITEMS, ...)` under either
+ * of its names (kernels.h), from the embedded sources. A parameter that is not one of int, state, coeff, double or an
+ * array behind a marker, or a second kernel of the name, gives n = 0: launches of that kernel are then not checked. */
+void brc_kernel_signature_read(const char *name, brc_kernel_signature *out);
 
 #endif

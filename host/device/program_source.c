@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_FILES = 64, MOST_FILE_BYTES = 1 << 20, HEAD_BYTES = 64 };
+enum { MOST_FILES = 96, MOST_FILE_BYTES = 1 << 20, HEAD_BYTES = 64 };
 
 typedef struct paste {
     brc_context *context;
@@ -33,12 +33,9 @@ static brc_status load(paste *p, const char *name, const char **text, char **own
 {
     *owned = NULL;
     if (!p->folder) {
-        for (int f = 0; f < brc_kernel_file_count; ++f)
-            if (strcmp(brc_kernel_files[f].name, name) == 0) {
-                *text = brc_kernel_files[f].text;
-                return BRC_OK;
-            }
-        return BRC_FAIL(p->context, BRC_INTERNAL, "kernel text %s is not embedded in this program", name);
+        *text = brc_kernel_text(name);
+        return *text ? BRC_OK
+                     : BRC_FAIL(p->context, BRC_INTERNAL, "kernel text %s is not embedded in this program", name);
     }
     char *path = NULL;
     size_t bytes;
@@ -62,14 +59,22 @@ static bool included_name(const char *line, char name[64])
     return true;
 }
 
+/* Loops (.cl) as often as they are included, for passes are read twice (kernels.h); all else once. */
+static bool is_pasted(const paste *p, const char *name)
+{
+    const char *const ending = strrchr(name, '.');
+    for (int k = 0; k < p->n_names; ++k)
+        if (strcmp(p->names[k], name) == 0) return !ending || strcmp(ending, ".cl") != 0;
+    return false;
+}
+
 static brc_status paste_file(paste *p, const char *name)
 {
     brc_status status = BRC_OK;
     char *owned = NULL;
     const char *text = NULL;
     char mark[96];
-    for (int k = 0; k < p->n_names; ++k)
-        if (strcmp(p->names[k], name) == 0) return BRC_OK;
+    if (is_pasted(p, name)) return BRC_OK;
     if (p->n_names == MOST_FILES)
         return BRC_FAIL(p->context, BRC_BAD_INPUT, "kernel text %s: more than %d files", name, (int)MOST_FILES);
     snprintf(p->names[p->n_names++], sizeof p->names[0], "%s", name);

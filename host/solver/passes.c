@@ -11,6 +11,7 @@ typedef struct parameter {
     source from;
     brc_value_kind value;
     brc_arg_kind argument;
+    brc_use use;
     const char *fixed; /* FROM_FIXED: where it stands */
     size_t at;         /* FROM_REQUEST, FROM_ITEM: in the owner */
     char name[NAME_BYTES];
@@ -104,6 +105,7 @@ static brc_status bind(brc_pass *pass, const brc_scope *scope, const char *open)
     for (int k = 0; k < pass->n; ++k) {
         parameter *p = &pass->of[k];
         p->argument = brc_kernel_parameter(pass->kernel, k, p->name, sizeof p->name);
+        p->use = brc_kernel_use(pass->kernel, k);
         if (k == 0 && p->argument == BRC_ARG_INT) {
             p->from = FROM_EXTENT;
             continue;
@@ -167,6 +169,57 @@ void brc_passes_free(brc_pass **list)
         *list = pass->next;
         brc_memory_free(pass);
     }
+}
+
+/* ---- rings ---- */
+
+enum { MOST_CHANGED = 32 };
+typedef struct changed_array {
+    const char *name;
+    int ring;
+} changed_array;
+typedef struct changed_arrays {
+    int n;
+    changed_array of[MOST_CHANGED];
+} changed_arrays;
+
+/* The ring up to which an array has changed; -1: nowhere. */
+static int ring_of(const changed_arrays *changed, const char *seeds, const char *name)
+{
+    int ring = has_word(seeds, name) ? 0 : -1;
+    for (int k = 0; k < changed->n; ++k)
+        if (strcmp(changed->of[k].name, name) == 0 && changed->of[k].ring > ring) ring = changed->of[k].ring;
+    return ring;
+}
+
+/* ring(out) = max(ring(own in), ring(gathered in) + 1). */
+static int ring_of_pass(const brc_pass *pass, const changed_arrays *changed, const char *seeds)
+{
+    int out = -1;
+    for (int k = 0; k < pass->n; ++k) {
+        const brc_use use = pass->of[k].use;
+        if (use == BRC_USE_VALUE || use == BRC_USE_PUT) continue;
+        const int in = ring_of(changed, seeds, pass->of[k].name);
+        const int reached = in < 0 || use == BRC_USE_OWN || use == BRC_USE_UPDATE ? in : in + 1;
+        if (reached > out) out = reached;
+    }
+    return out;
+}
+
+brc_status brc_passes_rings(int n, const brc_pass *const *passes, const char *seeds, int *rings)
+{
+    changed_arrays changed = {0};
+    for (int i = 0; i < n; ++i) {
+        rings[i] = ring_of_pass(passes[i], &changed, seeds);
+        for (int k = 0; k < passes[i]->n && rings[i] >= 0; ++k) {
+            if (!brc_use_writes(passes[i]->of[k].use)) continue;
+            if (changed.n == MOST_CHANGED)
+                return BRC_FAIL(passes[i]->context, BRC_INTERNAL, "rings of passes: more than %d arrays change",
+                                (int)MOST_CHANGED);
+            changed.of[changed.n++] = (changed_array){passes[i]->of[k].name, rings[i]};
+        }
+    }
+    return BRC_OK;
 }
 
 /* ---- launches ---- */

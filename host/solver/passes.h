@@ -2,7 +2,8 @@
  * once, when the pass is made, in a chain of scopes from the innermost outwards: one thing of many (a load), a request
  * of an evaluation, the arrays and numbers of an effect, those of the run. A launch then reads what stands there at the
  * time. Names that change with every launch are declared as open, and each launch gives all of them. The first
- * parameter of a kernel is its number of work-items. */
+ * parameter of a kernel is its number of work-items. Markers in the signature say whether an array is read or written,
+ * and at the rows of which elements (kernels/portable.h): rings around breaks follow from them. */
 #ifndef BRC_SOLVER_PASSES_H
 #define BRC_SOLVER_PASSES_H
 
@@ -38,7 +39,12 @@ brc_status brc_pass_make(brc_context *context, brc_device *device, const brc_sco
                          const char *open, brc_pass **list, brc_pass **out);
 void brc_passes_free(brc_pass **list);
 
-/* Open names of a kernel that goes over a list (rings.h). */
+/* Rings of elements around some whose own rows of the arrays `seeds` (names apart by spaces) have changed: up to which
+ * ring each of these passes, run in this order, has other results. What is gathered goes one ring on: ring(out) =
+ * max(ring(own in), ring(gathered in) + 1). -1: nothing that the pass reads has changed. */
+brc_status brc_passes_rings(int n, const brc_pass *const *passes, const char *seeds, int *rings);
+
+/* Open names of a pass in its reading over a list (rings.h; PASS in kernels/kernels.h). */
 #define BRC_LISTED "n list"
 
 /* What one launch gives for open names; ends with a name that is NULL. */

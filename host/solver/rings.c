@@ -52,7 +52,7 @@ static brc_status make_passes(brc_simulation *s, brc_rings *r)
 {
     const brc_scope run = brc_scope_of_run(s), rings = brc_scope_of_rings(r, &run);
     const brc_pass_wanted of_rings[] = {
-        BRC_PASS(&r->spread, "ring_spread", "from to origin"),
+        BRC_PASS(&r->spread, "ring_spread", "from to by_level"),
         BRC_PASS(&r->seed, "ring_seed", "above number"),
         BRC_PASS(&r->count_pass, "ring_count", "n which"),
         BRC_PASS(&r->tops, "ring_tops", "n_blocks"),
@@ -99,9 +99,10 @@ void brc_rings_free(brc_rings **rings)
 
 /* ---- lists ---- */
 
-static brc_status spread(brc_simulation *s, brc_rings *r, brc_buffer *origin, int from, int to)
+static brc_status spread(brc_simulation *s, brc_rings *r, bool by_level, int from, int to)
 {
-    return BRC_RUN(r->spread, s->n_groups, {"from", BRC_INT(from)}, {"to", BRC_INT(to)}, {"origin", BRC_BUF(origin)});
+    return BRC_RUN(r->spread, s->n_groups, {"from", BRC_INT(from)}, {"to", BRC_INT(to)},
+                   {"by_level", BRC_INT(by_level ? 1 : 0)});
 }
 
 enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in kernels/rings.cl */
@@ -121,14 +122,14 @@ static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring
 
 brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
 {
-    BRC_TRY(spread(s, r, r->touched, 1, 1));
+    BRC_TRY(spread(s, r, false, 1, 1));
     return make_list(s, r, FOUND, &r->around);
 }
 
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last)
 {
     for (int ring = first; ring <= last; ++ring)
-        BRC_TRY(spread(s, r, ring == 1 ? r->touched : r->level, ring, ring + 1));
+        BRC_TRY(spread(s, r, ring > 1, ring, ring + 1));
     return BRC_OK;
 }
 

@@ -107,6 +107,9 @@ typedef struct brc_run_passes {
     brc_pass *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy;
     brc_pass *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy, *divide_by_mass;
     brc_pass *impose_motion, *impose_book, *zero_imposed, *zero_turned, *push_elements, *impose_turn, *turn_book;
+    struct {
+        int gradient, stress, flux, force;
+    } ring; /* dlsm: the last ring around broken bonds where each has other results (brc_passes_rings) */
 } brc_run_passes;
 
 /* Numbers of the scene that kernels ask for by name; those of one material where there is one (kernels gather those of

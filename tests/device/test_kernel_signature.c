@@ -14,14 +14,18 @@
 static void a_parameter_list_is_read_letter_by_letter(void **unused)
 {
     (void)unused;
-    char kinds[2][BRC_KERNEL_MOST_ARGS + 1];
-    brc_kernel_signature("vector_axpy", kinds);
-    assert_string_equal(kinds[0], "isbb");
-    assert_string_equal(kinds[1], "");
-    brc_kernel_signature("vector_gather", kinds);
-    assert_string_equal(kinds[0], "ibbb");
-    brc_kernel_signature("vector_ax", kinds); /* the beginning of a name is another name */
-    assert_string_equal(kinds[0], "");
+    brc_kernel_signature of;
+    brc_kernel_signature_read("vector_axpy", &of);
+    assert_string_equal(of.kinds, "isbb");
+    assert_int_equal(of.use[1], BRC_USE_VALUE);
+    assert_int_equal(of.use[2], BRC_USE_OWN);
+    assert_int_equal(of.use[3], BRC_USE_UPDATE);
+    brc_kernel_signature_read("vector_gather", &of);
+    assert_string_equal(of.kinds, "ibbb");
+    assert_int_equal(of.use[2], BRC_USE_GATHER);
+    assert_int_equal(of.use[3], BRC_USE_PUT);
+    brc_kernel_signature_read("vector_ax", &of); /* the beginning of a name is another name */
+    assert_int_equal(of.n, 0);
 }
 
 static void every_kernel_of_the_list_can_be_checked(void **unused)
@@ -31,13 +35,50 @@ static void every_kernel_of_the_list_can_be_checked(void **unused)
     static const char *const names[] = {BRC_KERNEL_LIST(NAME)};
     int unreadable = 0;
     for (size_t k = 0; k < sizeof names / sizeof names[0]; ++k) {
-        char kinds[2][BRC_KERNEL_MOST_ARGS + 1];
-        brc_kernel_signature(names[k], kinds);
-        if (kinds[0][0]) continue;
+        brc_kernel_signature of;
+        brc_kernel_signature_read(names[k], &of);
+        if (of.n) continue;
         printf("the parameters of kernel %s cannot be read from its text: spell them out\n", names[k]);
         ++unreadable;
     }
     assert_int_equal(unreadable, 0);
+}
+
+static void a_pass_has_one_list_and_a_name_for_each_of_its_readings(void **unused)
+{
+    (void)unused;
+    brc_kernel_signature whole, listed;
+    brc_kernel_signature_read("dlsm_gradient", &whole);
+    brc_kernel_signature_read("dlsm_gradient_listed", &listed);
+    assert_string_equal(whole.kinds, "ibbbbbb");
+    assert_string_equal(listed.kinds, "iibbbbbbb");
+    assert_int_equal(strncmp(listed.name[1], "n,", 2), 0);
+    assert_int_equal(strncmp(listed.name[2], "list", 4), 0);
+    for (int k = 1; k < whole.n; ++k) {
+        assert_ptr_equal(whole.name[k], listed.name[k + 2]);
+        assert_int_equal(whole.use[k], listed.use[k + 2]);
+    }
+    brc_kernel_signature_read("dlsm_gradient_list", &listed);
+    assert_int_equal(listed.n, 0);
+}
+
+/* The tokens that a marker stands for, in kernels/portable.h. */
+static void markers_are_const_where_they_do_not_write(void **unused)
+{
+    (void)unused;
+    static const char *const markers[] = {
+        [BRC_USE_OWN] = "OWN",       [BRC_USE_GATHER] = "GATHER",   [BRC_USE_PUT] = "PUT",
+        [BRC_USE_UPDATE] = "UPDATE", [BRC_USE_SCATTER] = "SCATTER",
+    };
+    const char *const text = brc_kernel_text("portable.h");
+    for (int use = BRC_USE_OWN; use <= BRC_USE_SCATTER; ++use) {
+        char define[96];
+        const bool writes = brc_use_writes((brc_use)use);
+        assert_int_equal(writes, use >= BRC_USE_PUT);
+        snprintf(define, sizeof define, "\n#define %s(type) GLOBAL %stype *restrict\n", markers[use],
+                 writes ? "" : "const ");
+        assert_non_null(strstr(text, define));
+    }
 }
 
 static void the_pasted_text_holds_each_file_once_and_no_include(void **unused)
@@ -51,6 +92,9 @@ static void the_pasted_text_holds_each_file_once_and_no_include(void **unused)
     const char *const first = strstr(embedded, "#line 1 \"portable.h\"");
     assert_non_null(first);
     assert_null(strstr(first + 1, "#line 1 \"portable.h\""));
+    const char *const passes = strstr(embedded, "#line 1 \"dlsm_passes.cl\""); /* but passes, which are read twice */
+    assert_non_null(passes);
+    assert_non_null(strstr(passes + 1, "#line 1 \"dlsm_passes.cl\""));
     /* the files on disk give the same text, hash included: nothing was changed by embedding */
     assert_int_equal(brc_program_source(context, BRC_SOURCE_DIR_PATH "/kernels", &read), BRC_OK);
     assert_string_equal(embedded, read);
@@ -64,6 +108,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_parameter_list_is_read_letter_by_letter),
         cmocka_unit_test(every_kernel_of_the_list_can_be_checked),
+        cmocka_unit_test(a_pass_has_one_list_and_a_name_for_each_of_its_readings),
+        cmocka_unit_test(markers_are_const_where_they_do_not_write),
         cmocka_unit_test(the_pasted_text_holds_each_file_once_and_no_include),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

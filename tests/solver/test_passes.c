@@ -157,6 +157,54 @@ static void a_launch_gives_exactly_the_open_names(void **state)
             "gives 2 values, 1 are open");
 }
 
+/* A pass whose launches would give everything. */
+static brc_pass *open_pass(fixture *f, const char *kernel, const char *names)
+{
+    brc_pass *pass = NULL;
+    assert_int_equal(brc_pass_make(f->context, f->device, NULL, kernel, names, &f->passes, &pass), BRC_OK);
+    return pass;
+}
+
+#define ITEMS "row_start neighbour "
+#define FLUX                                                                                                           \
+    ITEMS "area offset ratio displacement gradient stress inv_shape inv_volume boundary held_moment face_loads "       \
+          "k_one ell_one beta one_plus_tau material modulus ell_of finite flux bond_part"
+#define BONDS "lambda_one mu_one young_one rotation_factor couple lame_of "
+
+static void rings_follow_from_what_is_gathered(void **state)
+{
+    fixture *f = *state;
+    int ring[4];
+    static const char gradient[] = ITEMS "area displacement inv_shape gradient",
+                      stress[] = ITEMS "area offset gradient inv_volume boundary held_gradient face_loads lambda_one "
+                                       "mu_one material finite stress",
+                      force[] = ITEMS "area ratio displacement flux bond_part k_one one_plus_tau modulus force";
+    const brc_pass *const dlsm[] = {open_pass(f, "dlsm_gradient", gradient), open_pass(f, "dlsm_stress", stress),
+                                    open_pass(f, "dlsm_flux_pass", FLUX), open_pass(f, "dlsm_force", force)};
+    assert_int_equal(brc_passes_rings(4, dlsm, "area inv_shape", ring), BRC_OK);
+    for (int k = 0; k < 4; ++k)
+        assert_int_equal(ring[k], k);
+    assert_int_equal(brc_passes_rings(4, dlsm, "displacement", ring), BRC_OK); /* moved: one ring more */
+    for (int k = 0; k < 4; ++k)
+        assert_int_equal(ring[k], k + 1);
+    assert_int_equal(brc_passes_rings(4, dlsm, "gravity", ring), BRC_OK);
+    assert_int_equal(ring[0], -1);
+    const brc_pass *const listed[] = {
+        open_pass(f, "dlsm_gradient_listed", BRC_LISTED " " ITEMS "area displacement inv_shape gradient"),
+        open_pass(f, "dlsm_flux_pass_listed", BRC_LISTED " " FLUX)};
+    assert_int_equal(brc_passes_rings(2, listed, "area inv_shape", ring), BRC_OK);
+    assert_int_equal(ring[0], 0);
+    assert_int_equal(ring[1], 1);
+    const brc_pass *const published[] = {
+        open_pass(f, "published_breaking_strain",
+                  ITEMS "branch area area_weights displacement orientation inv_shape spanned finite strain"),
+        open_pass(f, "published_force_pass",
+                  ITEMS "branch area displacement orientation strain " BONDS "finite force torque")};
+    assert_int_equal(brc_passes_rings(2, published, "area inv_shape spanned", ring), BRC_OK);
+    assert_int_equal(ring[0], 0);
+    assert_int_equal(ring[1], 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +213,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_number_for_an_array_and_an_int_for_a_number_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(inner_scopes_override_names_and_launches_give_their_owners, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_launch_gives_exactly_the_open_names, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(rings_follow_from_what_is_gathered, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

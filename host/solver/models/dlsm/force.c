@@ -19,10 +19,10 @@ static extent extent_of(const brc_simulation *s, const brc_force_request *r)
     if (!r->rings) return (extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
     const bool rim = brc_rims_gain(s, r->rings); /* rings 2 and 3 are done otherwise */
     return (extent){.list = &r->rings->around,
-                    .gradient = 0,
-                    .stress = 1,
-                    .flux = rim ? 1 : 2,
-                    .force = rim ? 1 : 3,
+                    .gradient = s->pass.ring.gradient,
+                    .stress = s->pass.ring.stress,
+                    .flux = rim ? 1 : s->pass.ring.flux,
+                    .force = rim ? 1 : s->pass.ring.force,
                     .whole_flux = r->rings->whole_force};
 }
 

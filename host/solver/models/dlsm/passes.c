@@ -1,6 +1,16 @@
 /* Passes of dlsm. */
 #include "dlsm.h"
 
+/* A broken bond has other rows of its two elements. */
+static brc_status derive_rings(brc_run_passes *p)
+{
+    const brc_pass *const passes[] = {p->gradient, p->stress, p->flux, p->force};
+    int ring[4];
+    BRC_TRY(brc_passes_rings(4, passes, "area inv_shape", ring));
+    p->ring.gradient = ring[0], p->ring.stress = ring[1], p->ring.flux = ring[2], p->ring.force = ring[3];
+    return BRC_OK;
+}
+
 brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request)
 {
     brc_run_passes *p = &s->pass;
@@ -12,10 +22,11 @@ brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const b
         {&p->force, "dlsm_force", NULL, false},
         {&p->gradient_listed, "dlsm_gradient_listed", BRC_LISTED, whole},
         {&p->stress_listed, "dlsm_stress_listed", BRC_LISTED, whole},
-        {&p->flux_listed, "dlsm_flux_listed", BRC_LISTED " face_loads", whole},
+        {&p->flux_listed, "dlsm_flux_pass_listed", BRC_LISTED " face_loads", whole},
         {&p->force_listed, "dlsm_force_listed", BRC_LISTED, whole},
     };
     BRC_TRY(BRC_PASSES_MAKE(s, request, of_requests));
+    BRC_TRY(derive_rings(p));
     const brc_pass_wanted of_state[] = {
         {&p->energy, "dlsm_energy", NULL, false},
         {&p->energy_listed, "dlsm_energy_listed", BRC_LISTED, whole},

@@ -7,7 +7,7 @@ brc_status brc_published_make_passes(brc_simulation *s, const brc_scope *run, co
     const bool whole = !s->scene->has_fracture;
     BRC_TRY(BRC_PASSES(s, request, BRC_PASS(&p->published_strain, "published_strain_pass", NULL),
                        BRC_PASS(&p->published_force, "published_force_pass", NULL),
-                       {&p->published_force_listed, "published_force_listed", BRC_LISTED, whole}));
+                       {&p->published_force_listed, "published_force_pass_listed", BRC_LISTED, whole}));
     return BRC_PASSES(s, run, BRC_PASS(&p->published_energy, "published_energy", NULL),
                       {&p->published_energy_listed, "published_energy_listed", BRC_LISTED, whole});
 }

@@ -1,0 +1,122 @@
+/* dlsm: its four passes and the ledger's, over all elements or over a list (PASS, kernels.h); laws in dlsm.cl. */
+
+/* Pass 1: least-squares displacement gradient H [-] [n][9]. area [slot][3][C], inv_shape A^-1 [slice][6][C]. */
+KERNEL void PASS(dlsm_gradient)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
+                                GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = PASS_MEMBERS(item, row_start);
+        const state_vec3 u = state_gather3(displacement, who.own);
+        lane_mat3 a = lane_mat3_zero();
+        for (int slot = who.begin; slot < who.end; ++slot) {
+            const lane_int j = members_neighbour(who, neighbour, slot);
+            members_ahead3(who, area, slot);
+            a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u),
+                              members_face3(who, area, slot));
+        }
+        members_store9(who, gradient, lane_mat3_mul_sym(a, members_block6(who, inv_shape)));
+    }
+}
+
+/* Pass 2: first Piola-Kirchhoff stress P [Pa] [n][9]. offset d [slot][3][C]. */
+KERNEL void PASS(dlsm_stress)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                              GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
+                              OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
+                              OWN(coeff) material, int finite, PUT(coeff) stress)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = PASS_MEMBERS(item, row_start);
+        const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary,
+                                                held_gradient, face_loads);
+        const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
+        members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
+    }
+}
+
+/* Pass 3: B [Pa] [n][9] and, with many materials, the bond part. */
+KERNEL void PASS(dlsm_flux_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                                 OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
+                                 GATHER(coeff) stress, OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary,
+                                 OWN(coeff) held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
+                                 coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
+                                 int finite, PUT(coeff) flux, PUT(coeff) bond_part)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = PASS_MEMBERS(item, row_start);
+        members_store9(who, flux,
+                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
+                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
+                                    material, modulus, ell_of, finite, bond_part));
+    }
+}
+
+/* Pass 4: force f [N] [n][3] on every element. */
+KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
+                             GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
+                             coeff one_plus_tau, GATHER(coeff) modulus, PUT(state) force)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = PASS_MEMBERS(item, row_start);
+        const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
+        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+        for (int slot = who.begin; slot < who.end; ++slot) {
+            const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part,
+                                             one_plus_tau, modulus);
+            f = lane_vec3_add(f, b.force);
+        }
+        members_store3(who, force, f);
+    }
+}
+
+/* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n /
+ * W] is 1; cells_check puts it back to 0. */
+KERNEL void PASS(cells_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
+                              GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
+                              coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient, OWN(coeff) stress,
+                              OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = PASS_MEMBERS(item, row_start);
+        const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
+        const cell_side side =
+            cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
+        members_records_ahead9(who, gradient);
+        members_records_ahead9(who, stress);
+        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+        lane least = LANE_ZERO + CELLS_NEVER;
+        for (int slot = who.begin; slot < who.end; ++slot) {
+            const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part,
+                                             one_plus_tau, modulus);
+            members_ahead1(who, limit, slot);
+            f = lane_vec3_add(f, b.force);
+            least = lane_min(least,
+                             cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
+        }
+        members_store3(who, force, f);
+        if (LANE_ANY_SHORT(least, LANE_ZERO)) {
+#define LOOK(l)                                                                                                        \
+    if (!(LANE_ITEM(least, l) >= 0)) STORE_SAME(look + LANE_ITEM(who.own, l) / W, 1);
+            LANE_EACH(LOOK)
+#undef LOOK
+        }
+    }
+}
+
+/* Ledger: elastic energy V psi and half of the stabilisation energy of its bonds, of every element [J] [n]. */
+KERNEL void PASS(dlsm_energy)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                              OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
+                              OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_gradient, int face_loads,
+                              coeff lambda_one, coeff mu_one, coeff k_one, coeff ell_one, coeff beta,
+                              coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
+                              int finite, PUT(state) elastic, PUT(state) stabilisation)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const members who = PASS_MEMBERS(item, row_start);
+        members_store1(who, elastic,
+                       dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,
+                                       face_loads, lambda_one, mu_one, material, finite));
+        members_store1(who, stabilisation,
+                       dlsm_bonds_of(who, neighbour, area, ratio, displacement, gradient, k_one, ell_one, beta,
+                                     one_plus_tau, material, modulus, ell_of, finite, 0, neighbour));
+    }
+}
