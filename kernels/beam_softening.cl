@@ -434,9 +434,8 @@ KERNEL void beam_soft_keep(int n_groups, int step, OWN(int) row_start, OWN(int) 
  * any more: as fracture_break. */
 KERNEL void beam_soft_end(int n_groups, int level, int step, OWN(int) row_start, UPDATE(int) neighbour,
                           PUT(coeff) inv_length, PUT(int) mark, GATHER(coeff) record, PUT(coeff) weight,
-                          OWN(int) active, UPDATE(int) open, UPDATE(coeff) crack, PUT(int) break_step,
-                          PUT(int) break_mode, PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) lost,
-                          UPDATE(state) broken)
+                          OWN(int) active, UPDATE(int) open, OWN(coeff) crack, PUT(int) break_step, PUT(int) break_mode,
+                          PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) lost, UPDATE(state) broken)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group);

@@ -93,8 +93,8 @@ LAW void rim_ask(const rim_bonds *bonds, int e, OWN(coeff) p)
  * (dlsm_flux.h). A work-item looks for the bonds of W elements before it sums them up, so that their faces are under
  * way together. */
 KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row_start, OWN(int) neighbour,
-                     GATHER(coeff) area, GATHER(coeff) offset, OWN(coeff) inv_shape, GATHER(int) level,
-                     SCATTER(coeff) gain, UPDATE(coeff) flux)
+                     OWN(coeff) area, OWN(coeff) offset, OWN(coeff) inv_shape, GATHER(int) level, SCATTER(coeff) gain,
+                     UPDATE(coeff) flux)
 {
     FOR_EACH_ITEM(item, n_items) {
         rim_bonds bonds[W];
@@ -140,7 +140,7 @@ KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row
 /* Force of the rings 2 and 3, list: that of the rings 0 to 3. That of before and sum (B_i + B_j) s of what both gained
  * (dlsm_bond.h), taken over as ring_replace does. */
 KERNEL void rim_force(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row_start, OWN(int) neighbour,
-                      GATHER(coeff) area, GATHER(int) level, GATHER(coeff) gain, state half_kick, OWN(state) mass,
+                      OWN(coeff) area, GATHER(int) level, GATHER(coeff) gain, state half_kick, OWN(state) mass,
                       UPDATE(state) force, UPDATE(state) velocity, PUT(state) fresh)
 {
     FOR_EACH_ITEM(item, n_items) {

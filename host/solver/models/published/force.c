@@ -38,7 +38,6 @@ brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *ring
 /* Energies of the elements, s->elastic_energy. */
 static brc_status element_energies(brc_simulation *s, const brc_ring_list *list, int ring)
 {
-    if (brc_pass_is_whole(s, list, ring)) return brc_pass_run(s->pass.published_energy, s->layout->n_rows);
     return brc_pass_over(s, s->pass.published_energy, s->pass.published_energy_listed, list, ring, NULL, NULL);
 }
 
