@@ -76,11 +76,23 @@ def arguments_of(ptx):
 
 
 def local_arrays(ptx):
-    """{kernel: bytes of its local array in PTX}: what the compiler could not keep in registers whatever the card."""
+    """{kernel: bytes of its local arrays in PTX, those of the functions it calls with them}: what the compiler could not keep in
+    registers whatever the card."""
     with open(ptx, encoding="utf-8") as file:
         text = file.read()
-    bodies = re.split(r"^\s*(?:\.visible )?\.entry (\w+)\(", text, flags=re.M)
-    return {name: sum(map(int, re.findall(r"\.local[^;]*\[(\d+)\];", body))) for name, body in zip(bodies[1::2], bodies[2::2])}
+    pieces = re.split(r"^\s*(?:\.visible )?\.(entry|func)\s+(?:\([^)]*\)\s*)?(\w+)\s*\(", text, flags=re.M)
+    kinds, bodies = dict(zip(pieces[2::3], pieces[1::3])), {}
+    for name, body in zip(pieces[2::3], pieces[3::3]):
+        bodies[name] = bodies.get(name, "") + body  # of a function: its declaration and its body
+
+    def bytes_of(name, seen):
+        if name in seen:
+            return 0
+        seen.add(name)
+        called = re.findall(r"call\.uni\s+(?:\([^)]*\),\s*)?(\w+)", bodies[name])
+        return sum(map(int, re.findall(r"\.local[^;]*\[(\d+)\];", bodies[name]))) + sum(bytes_of(other, seen) for other in called if other in bodies)
+
+    return {name: bytes_of(name, set()) for name in bodies if kinds[name] == "entry"}
 
 
 def occupancy(registers):
