@@ -2,6 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
+bool brc_cube_is_of_spheres(brc_model_kind model)
+{
+    return model == BRC_MODEL_CBM;
+}
+
 void brc_cube_make(brc_cube *c, brc_model_kind model)
 {
     memset(c, 0, sizeof *c);

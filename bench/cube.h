@@ -15,6 +15,8 @@ typedef struct brc_cube {
 } brc_cube;
 
 void brc_cube_make(brc_cube *cube, brc_model_kind model);
+/* The model joins spheres, not cells. */
+bool brc_cube_is_of_spheres(brc_model_kind model);
 /* About `size` elements. *out is the caller's. */
 brc_status brc_cube_build(brc_context *context, int64_t size, bool spheres, brc_domain **out);
 /* A bar of 1 m along x and BRC_BAR_WIDTH square, packed as the cube. */

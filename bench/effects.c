@@ -291,7 +291,7 @@ static brc_status measure_model(brc_context *context, const brc_effects_request 
     int n = 0;
     double scale, cost;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &v, MOST_VARIANTS, "variants of the cube"));
-    BRC_TRY_OR(cleanup, brc_cube_build(context, r->size, model == BRC_MODEL_CBM, &domain));
+    BRC_TRY_OR(cleanup, brc_cube_build(context, r->size, brc_cube_is_of_spheres(model), &domain));
     BRC_TRY_OR(cleanup, make_variant(context, r, domain, model, &elastic, 0, 1, &base));
     for (int k = 0; k < N_EFFECTS; ++k) {
         if (effects[k].softens && model != BRC_MODEL_DLSM) continue;

@@ -147,7 +147,7 @@ brc_status brc_launches_measure(brc_context *context, const brc_launches_request
 {
     for (int m = 0; m < request->n_models; ++m) {
         brc_domain *domain = NULL;
-        BRC_TRY(brc_cube_build(context, request->size, request->models[m] == BRC_MODEL_CBM, &domain));
+        BRC_TRY(brc_cube_build(context, request->size, brc_cube_is_of_spheres(request->models[m]), &domain));
         brc_status status = BRC_OK;
         for (size_t k = 0; k < sizeof effects / sizeof effects[0] && status == BRC_OK; ++k)
             status = measure(context, request, domain, request->models[m], &effects[k], rows);

@@ -238,6 +238,7 @@ static brc_status add_step(brc_context *context, const brc_ranks_request *r, con
     BRC_TRY(brc_ranks_most(context, sizeof most / sizeof *most, most));
     BRC_TRY(brc_ranks_reduce(context, BRC_SUM, 1, &sum));
     begin_row(rows, "step", brc_ranks_count());
+    brc_rows_text(rows, "model", brc_model_name(r->model));
     brc_rows_integer(rows, "elements", d->n_elements);
     brc_rows_integer(rows, "bonds", d->n_bonds);
     brc_rows_text(rows, "device", r->device);
@@ -297,8 +298,8 @@ static brc_status measure_step(brc_context *context, const brc_ranks_request *r,
     brc_ranks_cost cost = {0};
     double seconds;
     brc_status status = BRC_OK;
-    brc_cube_make(&c, BRC_MODEL_DLSM);
-    BRC_TRY_OR(cleanup, brc_cube_build(context, size, false, &domain));
+    brc_cube_make(&c, r->model);
+    BRC_TRY_OR(cleanup, brc_cube_build(context, size, brc_cube_is_of_spheres(r->model), &domain));
     const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
     BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
     BRC_TRY_OR(cleanup, brc_device_log_places(context, device));

@@ -17,6 +17,7 @@ typedef struct brc_ranks_request {
     int n_sizes;
     int64_t sizes[BRC_THROUGHPUT_LIST]; /* elements wanted */
     bool surface, exchange, step;       /* kinds of rows */
+    brc_model_kind model;               /* of the steps */
     int64_t n_steps;                    /* of each sample */
     const char *device;
     brc_precision precision;

@@ -140,7 +140,7 @@ static brc_status measure_domain(brc_context *context, const brc_throughput_requ
         for (int d = 0; d < r->n_devices; ++d)
             for (int p = 0; p < r->n_precisions; ++p)
                 for (int t = 0; t < r->n_threads; ++t) {
-                    if ((r->models[m] == BRC_MODEL_CBM) != spheres) continue;
+                    if (brc_cube_is_of_spheres(r->models[m]) != spheres) continue;
                     const bool cpu = strcmp(r->devices[d], "cpu") == 0;
                     if (!cpu && t > 0) continue; /* other devices choose their threads themselves */
                     BRC_TRY(add_row(context, r, domain, r->models[m], r->devices[d], r->precisions[p],
@@ -155,7 +155,7 @@ brc_status brc_throughput_measure(brc_context *context, const brc_throughput_req
         for (int spheres = 0; spheres < 2; ++spheres) {
             bool wanted = false;
             for (int m = 0; m < request->n_models; ++m)
-                wanted |= (request->models[m] == BRC_MODEL_CBM) == (spheres == 1);
+                wanted |= brc_cube_is_of_spheres(request->models[m]) == (spheres == 1);
             if (!wanted) continue;
             brc_domain *domain;
             BRC_TRY(brc_cube_build(context, request->sizes[s], spheres == 1, &domain));

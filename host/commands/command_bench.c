@@ -178,21 +178,6 @@ static brc_status run_contact(const brc_session *session, const brc_arguments *a
     return status;
 }
 
-/* Names of a list of models. */
-static brc_status take_models(brc_context *context, int n, const char *const *names, brc_model_kind *out)
-{
-    for (int k = 0; k < n; ++k) {
-        int kind = BRC_MODEL_DLSM;
-        while (kind <= BRC_MODEL_CBM && strcmp(names[k], brc_model_name((brc_model_kind)kind)) != 0)
-            ++kind;
-        if (kind > BRC_MODEL_CBM)
-            return BRC_FAIL(context, BRC_BAD_INPUT,
-                            "breccia bench: no model '%s', expected dlsm, dlsm-published or cbm", names[k]);
-        out[k] = (brc_model_kind)kind;
-    }
-    return BRC_OK;
-}
-
 static brc_status print_effect(void *self, const brc_rows *rows)
 {
     const brc_row *row = &rows->rows[rows->n_rows - 1];
@@ -227,7 +212,7 @@ static brc_status take_one_case(brc_context *context, const brc_arguments *argum
     int n_sizes = 0, n_devices = 0, n_precisions = 0, n_threads = 0;
     BRC_TRY(brc_bench_take_list(context, arguments, "models", "dlsm,dlsm-published,cbm", out->copy[0],
                                 sizeof out->copy[0], pieces, &out->n_models));
-    BRC_TRY(take_models(context, out->n_models, pieces, out->models));
+    BRC_TRY(brc_bench_take_models(context, out->n_models, pieces, out->models));
     BRC_TRY(
         brc_bench_take_list(context, arguments, "sizes", "2e4", out->copy[1], sizeof out->copy[1], pieces, &n_sizes));
     BRC_TRY(brc_bench_take_number(context, "sizes", pieces[0], 8, 1e9, &number));
@@ -434,7 +419,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         BRC_TRY(brc_precision_parse(context, pieces[k], &request.precisions[k]));
     BRC_TRY(brc_bench_take_list(context, arguments, "models", "dlsm,dlsm-published", copy[3], sizeof copy[3], pieces,
                                 &request.n_models));
-    BRC_TRY(take_models(context, request.n_models, pieces, request.models));
+    BRC_TRY(brc_bench_take_models(context, request.n_models, pieces, request.models));
     if (brc_arguments_value(arguments, "sample"))
         BRC_TRY(brc_bench_take_number(context, "sample", brc_arguments_value(arguments, "sample"), 1e-3, 3600,
                                       &request.sample_s));

@@ -10,6 +10,8 @@ brc_status brc_bench_take_list(brc_context *context, const brc_arguments *argume
 /* `text` as a number from low to high. */
 brc_status brc_bench_take_number(brc_context *context, const char *name, const char *text, double low, double high,
                                  double *out);
+/* Models by their names [n]. */
+brc_status brc_bench_take_models(brc_context *context, int n, const char *const *names, brc_model_kind *out);
 /* Options of other benches [n] are slips. */
 brc_status brc_bench_refuse_options(brc_context *context, const brc_arguments *arguments, const char *kind, int n,
                                     const char *const *names);

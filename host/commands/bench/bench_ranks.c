@@ -69,12 +69,12 @@ static brc_status take_kinds(brc_context *context, const brc_arguments *argument
 
 brc_status brc_bench_ranks(const brc_session *session, const brc_arguments *arguments)
 {
-    static const char *const others[] = {"models", "exact",  "sample",   "copy",   "quick",
-                                         "folder", "resume", "elements", "poisson"};
+    static const char *const others[] = {"exact", "sample", "copy", "quick", "folder", "resume", "elements", "poisson"};
     brc_context *context = session->context;
     const char *output = brc_arguments_value(arguments, "output"),
                *precision = brc_arguments_value(arguments, "precisions"),
                *device = brc_arguments_value(arguments, "devices");
+    const char *const models = brc_arguments_value(arguments, "models"), *const model = models ? models : "dlsm";
     char folder[512];
     int64_t n_threads;
     BRC_TRY(brc_bench_refuse_options(context, arguments, "ranks", sizeof others / sizeof *others, others));
@@ -82,6 +82,7 @@ brc_status brc_bench_ranks(const brc_session *session, const brc_arguments *argu
     brc_ranks_request request = {.device = device ? device : "cpu", .row = print_row, .self = folder};
     BRC_TRY(take_sizes(context, arguments, &request));
     BRC_TRY(take_kinds(context, arguments, &request));
+    BRC_TRY(brc_bench_take_models(context, 1, &model, &request.model));
     BRC_TRY(brc_precision_parse(context, precision ? precision : "double", &request.precision));
     BRC_TRY(brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
     BRC_TRY(brc_arguments_integer(context, arguments, "steps", 1, 1000000, 100, &request.n_steps));
