@@ -4,9 +4,9 @@
 #include "../host/base/memory.h"
 #include "../host/base/random.h"
 #include "../host/scene/scene_reader.h"
-#include "../host/solver/fracture.h"
-#include "../host/solver/simulation.h"
-#include "../host/solver/touching.h"
+#include "../host/solver/effects/fracture/fracture.h"
+#include "../host/solver/run/simulation.h"
+#include "../host/solver/effects/contact/touching.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

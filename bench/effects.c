@@ -4,9 +4,9 @@
 #include "../host/base/file.h"
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
-#include "../host/solver/fracture.h"
-#include "../host/solver/guard.h"
-#include "../host/solver/simulation.h"
+#include "../host/solver/effects/fracture/fracture.h"
+#include "../host/solver/effects/guard.h"
+#include "../host/solver/run/simulation.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

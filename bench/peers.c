@@ -6,7 +6,7 @@
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
 #include "../host/device/device.h"
-#include "../host/solver/beam_law.h"
+#include "../host/solver/laws/beam_law.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,8 +4,8 @@
 #include "../host/base/memory.h"
 #include "../host/base/ranks.h"
 #include "../host/device/device_list.h"
-#include "../host/solver/layout.h"
-#include "../host/solver/simulation.h"
+#include "../host/solver/core/layout.h"
+#include "../host/solver/run/simulation.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "sectors.h"
 #include "cube.h"
 #include "../host/base/memory.h"
-#include "../host/solver/layout.h"
+#include "../host/solver/core/layout.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

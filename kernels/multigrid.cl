@@ -1,6 +1,6 @@
-/* Multigrid as preconditioner of static solves (host/solver/multigrid): residuals, steps and transfers between levels.
- * A node of a level has a displacement move [n][3] and a rotation turn [n][3], forces and torques likewise. Each
- * work-item gathers and writes its own node. */
+/* Multigrid as preconditioner of static solves (host/solver/statics/multigrid): residuals, steps and transfers between
+ * levels. A node of a level has a displacement move [n][3] and a rotation turn [n][3], forces and torques likewise.
+ * Each work-item gathers and writes its own node. */
 
 /* out = right - A x of the finest level of cells: its bonds from area vectors and L/S, or from branches and areas
  * (by_branch). moduli_of [n][3]: with several materials. n_right: right sides there are: 0 none, 1 forces, 2 forces and

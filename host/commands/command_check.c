@@ -11,9 +11,9 @@
 #include "../base/memory.h"
 #include "../output/checkpoint/checkpoint_identity.h"
 #include "../scene/scene_reader.h"
-#include "../solver/free_bodies.h"
-#include "../solver/strikers.h"
-#include "../solver/touching.h"
+#include "../solver/statics/free_bodies.h"
+#include "../solver/effects/strikers/strikers.h"
+#include "../solver/effects/contact/touching.h"
 
 static const brc_option options[] = {
     BRC_OPTION_DEVICE,

@@ -9,8 +9,8 @@
 #include "../output/checkpoint/checkpoint.h"
 #include "../output/checkpoint/checkpoint_identity.h"
 #include "../output/recorder.h"
-#include "../solver/free_bodies.h"
-#include "../solver/lockstep.h"
+#include "../solver/statics/free_bodies.h"
+#include "../solver/run/lockstep.h"
 #include <string.h>
 
 static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",     "histories.csv",

@@ -5,7 +5,7 @@
 
 #include "../output/sensors/measures.h"
 #include "../scene/scene_reader.h"
-#include "../solver/assembly.h"
+#include "../solver/run/assembly.h"
 
 /* All borrowed during the call; zero or NULL is the default of each member but the scene's text or path. */
 typedef struct brc_run_request {

@@ -4,7 +4,7 @@
 
 #include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
-#include "../solver/split.h"
+#include "../solver/run/split.h"
 
 /* What the builder is asked for one body, with the arrays it borrows. */
 typedef struct brc_scene_request {

@@ -3,7 +3,7 @@
 #include "scene_domain.h"
 #include "../base/memory.h"
 #include "../device/device_list.h"
-#include "../solver/beam_polish.h"
+#include "../solver/laws/beam_polish.h"
 #include <math.h>
 #include <string.h>
 

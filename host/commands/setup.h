@@ -3,7 +3,7 @@
 #ifndef BRC_COMMANDS_SETUP_H
 #define BRC_COMMANDS_SETUP_H
 
-#include "../solver/assembly.h"
+#include "../solver/run/assembly.h"
 
 typedef struct brc_setup {
     brc_split *split;

@@ -1,8 +1,8 @@
 /* The state as arrays: the device's own where it works in host memory, else read back; and what follows from it. */
 #include "library_internal.h"
 #include "../base/memory.h"
-#include "../solver/fracture.h"
-#include "../solver/live_arrays.h"
+#include "../solver/effects/fracture/fracture.h"
+#include "../solver/run/live_arrays.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "library_internal.h"
 #include "../base/log.h"
 #include "../base/memory.h"
-#include "../solver/stage_end.h"
+#include "../solver/run/stage_end.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -268,7 +268,7 @@ static bool hear_iteration(void *self)
 
 static brc_status assembled(void *self, const brc_assembly *assembly)
 {
-    enum { BATCH = 256 }; /* as host/solver/dynamics.c has without patience */
+    enum { BATCH = 256 }; /* as host/solver/run/dynamics.c has without patience */
     breccia_run *run = self;
     run->assembly = *assembly;
     run->patience = (brc_patience){.self = run, .over = hear_iteration, .batch = BATCH};

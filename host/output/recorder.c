@@ -16,7 +16,7 @@
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
-#include "../solver/stage_end.h"
+#include "../solver/run/stage_end.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -28,8 +28,8 @@
 
 #include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
-#include "../solver/assembly.h"
-#include "../solver/state_store.h"
+#include "../solver/run/assembly.h"
+#include "../solver/run/state_store.h"
 #include "checkpoint/checkpoint_report.h"
 #include "sensors/measures.h"
 #include "prediction.h"

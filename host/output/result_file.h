@@ -2,7 +2,7 @@
 #ifndef BRC_OUTPUT_RESULT_FILE_H
 #define BRC_OUTPUT_RESULT_FILE_H
 
-#include "../solver/assembly.h"
+#include "../solver/run/assembly.h"
 #include "cracks/crack_records.h"
 #include "sensors/history.h"
 #include "sensors/measures.h"

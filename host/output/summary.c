@@ -5,9 +5,9 @@
 #include "../base/log.h"
 #include "../base/memory.h"
 #include "../base/version.h"
-#include "../solver/guard.h"
-#include "../solver/stage_end.h"
-#include "../solver/strikers.h"
+#include "../solver/effects/guard.h"
+#include "../solver/run/stage_end.h"
+#include "../solver/effects/strikers/strikers.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

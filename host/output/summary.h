@@ -2,7 +2,7 @@
 #ifndef BRC_OUTPUT_SUMMARY_H
 #define BRC_OUTPUT_SUMMARY_H
 
-#include "../solver/assembly.h"
+#include "../solver/run/assembly.h"
 #include "checkpoint/checkpoint_report.h"
 #include "cracks/crack_records.h"
 #include "sensors/history.h"

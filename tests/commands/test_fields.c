@@ -1,10 +1,10 @@
-/* Device memory is what the tables of fields say (host/solver/fields.h): to the byte, for every example and every scene
- * of tests/digest, from scene and domain alone. */
+/* Device memory is what the tables of fields say (host/solver/core/fields.h): to the byte, for every example and every
+ * scene of tests/digest, from scene and domain alone. */
 #include "support.h"
 #include "../../host/base/memory.h"
 #include "../../host/commands/setup.h"
 #include "../../host/scene/scene_reader.h"
-#include "../../host/solver/simulation_internal.h"
+#include "../../host/solver/run/simulation_internal.h"
 #include <glob.h>
 #include <stdio.h>
 #include <string.h>

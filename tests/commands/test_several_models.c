@@ -8,7 +8,7 @@
 #include "../../host/output/cracks/cracks.h"
 #include "../../host/output/h5_read.h"
 #include "../../host/scene/scene_reader.h"
-#include "../../host/solver/lockstep.h"
+#include "../../host/solver/run/lockstep.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,13 +3,13 @@
 #ifndef BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 #define BRC_TEST_OUTPUT_FAKE_SIMULATION_H
 
-#include "../../host/solver/guard.h"
+#include "../../host/solver/effects/guard.h"
 #include "../../host/base/memory.h"
-#include "../../host/solver/fragments.h"
-#include "../../host/solver/phases.h"
-#include "../../host/solver/regime.h"
-#include "../../host/solver/stage_end.h"
-#include "../../host/solver/strikers.h"
+#include "../../host/solver/effects/fracture/fragments.h"
+#include "../../host/solver/run/phases.h"
+#include "../../host/solver/run/regime.h"
+#include "../../host/solver/run/stage_end.h"
+#include "../../host/solver/effects/strikers/strikers.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 #define BRC_TESTS_SOLVER_SUPPORT_H
 
 #include "../../host/scene/scene_reader.h"
-#include "../../host/solver/fracture.h"
-#include "../../host/solver/simulation.h"
+#include "../../host/solver/effects/fracture/fracture.h"
+#include "../../host/solver/run/simulation.h"
 // clang-format off
 #include <stdarg.h>
 #include <stddef.h>

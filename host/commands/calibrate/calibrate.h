@@ -3,8 +3,8 @@
 #ifndef BRC_COMMANDS_CALIBRATE_H
 #define BRC_COMMANDS_CALIBRATE_H
 
-#include "../../solver/beam_law.h"
-#include "../../solver/beam_sample.h"
+#include "../../solver/laws/beam_law.h"
+#include "../../solver/laws/beam_sample.h"
 #include <stdint.h>
 #include <stdio.h>
 

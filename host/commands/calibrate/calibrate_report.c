@@ -54,7 +54,7 @@ static brc_status write_c(brc_context *context, const brc_calibration_plan *plan
                  words, 100 * fit->quality[BRC_FORM_SURFACE][BRC_QUANTITY_NU].mean_rms,
                  100 * fit->quality[BRC_FORM_SURFACE][BRC_QUANTITY_E].mean_rms);
     brc_text_add(&text,
-                 "#ifndef BRC_LAWS_SPREAD_%s_H\n#define BRC_LAWS_SPREAD_%s_H\n\n#include \"../beam_law.h\"\n\nstatic "
+                 "#ifndef BRC_LAWS_SPREAD_%s_H\n#define BRC_LAWS_SPREAD_%s_H\n\n#include \"beam_law.h\"\n\nstatic "
                  "const brc_beam_law brc_beam_law_spread_%s = {\n",
                  spread, spread, spread);
     brc_text_add(

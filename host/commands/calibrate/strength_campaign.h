@@ -5,7 +5,7 @@
 #define BRC_COMMANDS_STRENGTH_CAMPAIGN_H
 
 #include "../../../bench/rows.h"
-#include "../../solver/strength_law.h"
+#include "../../solver/laws/strength_law.h"
 #include "calibrate.h"
 
 typedef struct brc_strength_plan {

@@ -32,7 +32,7 @@ static brc_status write_c(brc_context *context, const char *words, const brc_str
                  "samples: %.2f %%. */\n",
                  words, 100 * fit->quality[BRC_STRENGTH_SURFACE].mean_rms);
     brc_text_add(&text, "#ifndef BRC_LAWS_STRENGTH_H\n#define BRC_LAWS_STRENGTH_H\n\n#include "
-                        "\"../strength_law.h\"\n\nstatic const brc_strength_law brc_strength_law_fitted = {\n");
+                        "\"strength_law.h\"\n\nstatic const brc_strength_law brc_strength_law_fitted = {\n");
     brc_text_add(&text, "    .name = \"%s\",\n    .coordination = {%g, %g}, .radius = {%g, %g},\n    .surface = {",
                  law->name, law->coordination[0], law->coordination[1], law->radius[0], law->radius[1]);
     for (int i = 0; i < ROWS; ++i) {

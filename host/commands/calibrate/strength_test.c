@@ -1,9 +1,9 @@
 #include "strength_test.h"
 #include "../../base/log.h"
 #include "../../output/sensors/sphere_box.h"
-#include "../../solver/beam_law.h"
-#include "../../solver/fracture.h"
-#include "../../solver/strength_law.h"
+#include "../../solver/laws/beam_law.h"
+#include "../../solver/effects/fracture/fracture.h"
+#include "../../solver/laws/strength_law.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

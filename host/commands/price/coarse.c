@@ -6,10 +6,10 @@
 #include "../../base/log.h"
 #include "../../base/memory.h"
 #include "../../output/recorder.h"
-#include "../../solver/fracture.h"
-#include "../../solver/lockstep.h"
-#include "../../solver/patience.h"
-#include "../../solver/stage_end.h"
+#include "../../solver/effects/fracture/fracture.h"
+#include "../../solver/run/lockstep.h"
+#include "../../solver/run/patience.h"
+#include "../../solver/run/stage_end.h"
 #include <math.h>
 
 enum { BATCH = 64 };

@@ -2,7 +2,7 @@
 #include <math.h>
 
 /* Iterations of a solve in units of elements across, and with multigrid, which bodies of so many elements across have
- * (500 elements: host/solver/multigrid). */
+ * (500 elements: host/solver/statics/multigrid). */
 static const double iterations_across = 5, multigrid_iterations = 40, multigrid_across = 8,
                     solves_per_finite_increment = 3;
 /* Measured in units of a bond update of a dynamic step: a round of modes for each bond and mode (rounds themselves do

@@ -8,10 +8,10 @@
 #include "../../base/log.h"
 #include "../../base/memory.h"
 #include "../../output/checkpoint/checkpoint.h"
-#include "../../solver/fracture.h"
-#include "../../solver/lockstep.h"
-#include "../../solver/patience.h"
-#include "../../solver/stage_end.h"
+#include "../../solver/effects/fracture/fracture.h"
+#include "../../solver/run/lockstep.h"
+#include "../../solver/run/patience.h"
+#include "../../solver/run/stage_end.h"
 #include <math.h>
 #include <stdio.h>
 

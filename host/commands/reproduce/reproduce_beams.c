@@ -3,9 +3,9 @@
 #include "operators.h"
 #include "../../base/log.h"
 #include "../../base/memory.h"
-#include "../../solver/beam_law.h"
-#include "../../solver/beam_polish.h"
-#include "../../solver/beam_sample.h"
+#include "../../solver/laws/beam_law.h"
+#include "../../solver/laws/beam_polish.h"
+#include "../../solver/laws/beam_sample.h"
 #include <math.h>
 #include <omp.h>
 #include <stddef.h>

@@ -4,7 +4,7 @@
 #include "../../base/file.h"
 #include "../../base/memory.h"
 #include "../../output/pictures/gnuplot.h"
-#include "../../solver/fracture.h"
+#include "../../solver/effects/fracture/fracture.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -5,8 +5,8 @@
 #include "../../base/file.h"
 #include "../../base/log.h"
 #include "../../base/memory.h"
-#include "../../solver/guard.h"
-#include "../../solver/lockstep.h"
+#include "../../solver/effects/guard.h"
+#include "../../solver/run/lockstep.h"
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef BRC_OUTPUT_CHECKPOINT_IDENTITY_H
 #define BRC_OUTPUT_CHECKPOINT_IDENTITY_H
 
-#include "../../solver/assembly.h"
+#include "../../solver/run/assembly.h"
 #include "../h5.h"
 #include "../h5_read.h"
 

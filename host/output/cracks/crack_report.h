@@ -2,8 +2,8 @@
 #ifndef BRC_OUTPUT_CRACK_REPORT_H
 #define BRC_OUTPUT_CRACK_REPORT_H
 
-#include "../../solver/fragments.h"
-#include "../../solver/regime.h"
+#include "../../solver/effects/fracture/fragments.h"
+#include "../../solver/run/regime.h"
 #include "crack_statistics.h"
 #include "cracks.h"
 

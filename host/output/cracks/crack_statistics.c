@@ -1,5 +1,5 @@
 #include "crack_statistics.h"
-#include "../../solver/sym3.h"
+#include "../../solver/core/sym3.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef BRC_OUTPUT_CRACK_STATISTICS_H
 #define BRC_OUTPUT_CRACK_STATISTICS_H
 
-#include "../../solver/fracture.h"
+#include "../../solver/effects/fracture/fracture.h"
 
 enum { BRC_BREAK_MODES = 8 }; /* room for modes of failure, counted from 1 */
 

@@ -2,8 +2,8 @@
 #ifndef BRC_OUTPUT_CRACK_SURFACE_H
 #define BRC_OUTPUT_CRACK_SURFACE_H
 
-#include "../../solver/assembly.h"
-#include "../../solver/fracture.h"
+#include "../../solver/run/assembly.h"
+#include "../../solver/effects/fracture/fracture.h"
 
 /* VTU of polygons (type 7), two for every broken bond, one moving with each of its elements: CellData side 0 is that of
  * element_i, 1 that of element_j. Cells: the corners of the face. Beams: an octagon around the middle of the bond,

@@ -2,8 +2,8 @@
 #ifndef BRC_OUTPUT_CRACKS_H
 #define BRC_OUTPUT_CRACKS_H
 
-#include "../../solver/assembly.h"
-#include "../../solver/fracture.h"
+#include "../../solver/run/assembly.h"
+#include "../../solver/effects/fracture/fracture.h"
 #include "../append.h"
 
 typedef struct brc_h5 brc_h5; /* h5.h */

@@ -3,8 +3,8 @@
 #ifndef BRC_OUTPUT_FRAGMENTS_FILE_H
 #define BRC_OUTPUT_FRAGMENTS_FILE_H
 
-#include "../../solver/assembly.h"
-#include "../../solver/fragments.h"
+#include "../../solver/run/assembly.h"
+#include "../../solver/effects/fracture/fragments.h"
 #include "../append.h"
 #include "../h5.h"
 

@@ -2,7 +2,7 @@
 #include "frame_cells.h"
 #include "../h5_pack.h"
 #include "../../base/memory.h"
-#include "../../solver/fracture.h"
+#include "../../solver/effects/fracture/fracture.h"
 #include <stdio.h>
 #include <string.h>
 

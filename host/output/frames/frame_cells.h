@@ -4,8 +4,8 @@
 #define BRC_OUTPUT_FRAME_CELLS_H
 
 #include "../../../preprocess/cells/tessellation.h"
-#include "../../solver/assembly.h"
-#include "../../solver/state_store.h"
+#include "../../solver/run/assembly.h"
+#include "../../solver/run/state_store.h"
 #include "../h5.h"
 
 /* Where the rows of one part stand among those of all. */

@@ -2,8 +2,8 @@
 #ifndef BRC_OUTPUT_FRAME_FILE_H
 #define BRC_OUTPUT_FRAME_FILE_H
 
-#include "../../solver/assembly.h"
-#include "../../solver/state_store.h"
+#include "../../solver/run/assembly.h"
+#include "../../solver/run/state_store.h"
 
 #define BRC_FRAME_FORMAT_VERSION 2
 

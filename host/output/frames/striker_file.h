@@ -2,8 +2,8 @@
 #ifndef BRC_OUTPUT_STRIKER_FILE_H
 #define BRC_OUTPUT_STRIKER_FILE_H
 
-#include "../../solver/assembly.h"
-#include "../../solver/strikers.h"
+#include "../../solver/run/assembly.h"
+#include "../../solver/effects/strikers/strikers.h"
 
 /* VTU of polygons (type 7), the faces of all strikers in the scene's order. As in frames Points [m] are those of the
  * start and PointData/displacement [m] moves them

@@ -3,8 +3,8 @@
 #ifndef BRC_OUTPUT_PICTURE_H
 #define BRC_OUTPUT_PICTURE_H
 
-#include "../../solver/assembly.h"
-#include "../../solver/strikers.h"
+#include "../../solver/run/assembly.h"
+#include "../../solver/effects/strikers/strikers.h"
 #include "paint.h"
 #include "picture_faces.h"
 

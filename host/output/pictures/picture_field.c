@@ -1,6 +1,6 @@
 /* Which field the picture shows: words of the scene to numbers of the elements. */
 #include "picture.h"
-#include "../../solver/fracture.h"
+#include "../../solver/effects/fracture/fracture.h"
 #include "../frames/deform.h"
 #include "../../base/memory.h"
 #include <math.h>

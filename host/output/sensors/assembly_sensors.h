@@ -2,7 +2,7 @@
 #ifndef BRC_OUTPUT_ASSEMBLY_SENSORS_H
 #define BRC_OUTPUT_ASSEMBLY_SENSORS_H
 
-#include "../../solver/assembly.h"
+#include "../../solver/run/assembly.h"
 
 typedef struct brc_assembly_sensors brc_assembly_sensors;
 

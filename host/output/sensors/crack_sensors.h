@@ -2,7 +2,7 @@
 #ifndef BRC_OUTPUT_CRACK_SENSORS_H
 #define BRC_OUTPUT_CRACK_SENSORS_H
 
-#include "../../solver/fracture.h"
+#include "../../solver/effects/fracture/fracture.h"
 
 typedef struct brc_crack_sensors brc_crack_sensors;
 

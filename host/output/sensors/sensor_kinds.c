@@ -1,9 +1,9 @@
 /* The kinds of sensors: what each looks up before the run and how it is read. */
 #include "sensor_means.h"
 #include "sphere_box.h"
-#include "../../solver/fragments.h"
-#include "../../solver/strikers.h"
-#include "../../solver/touching.h"
+#include "../../solver/effects/fracture/fragments.h"
+#include "../../solver/effects/strikers/strikers.h"
+#include "../../solver/effects/contact/touching.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef BRC_LAWS_DISC_H
 #define BRC_LAWS_DISC_H
 
-#include "../strength_law.h"
+#include "strength_law.h"
 
 static const brc_disc_law brc_disc_law_fitted = {
     .coordination = {6, 13},

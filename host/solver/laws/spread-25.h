@@ -4,7 +4,7 @@
 #ifndef BRC_LAWS_SPREAD_25_H
 #define BRC_LAWS_SPREAD_25_H
 
-#include "../beam_law.h"
+#include "beam_law.h"
 
 static const brc_beam_law brc_beam_law_spread_25 = {
     .name = "radii +-25 %",

@@ -4,7 +4,7 @@
 #ifndef BRC_LAWS_STRENGTH_H
 #define BRC_LAWS_STRENGTH_H
 
-#include "../strength_law.h"
+#include "strength_law.h"
 
 static const brc_strength_law brc_strength_law_fitted = {
     .name = "fit of breccia calibrate",

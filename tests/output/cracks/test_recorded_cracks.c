@@ -6,8 +6,8 @@
 #include "../../../host/output/frames/export.h"
 #include "../../../host/output/recorder.h"
 #include "../../../host/scene/scene_reader.h"
-#include "../../../host/solver/fracture.h"
-#include "../../../host/solver/stage_end.h"
+#include "../../../host/solver/effects/fracture/fracture.h"
+#include "../../../host/solver/run/stage_end.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

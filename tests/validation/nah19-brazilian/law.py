@@ -22,7 +22,7 @@ print(f"""/* Written by tests/validation/nah19-brazilian/law.py from disc-streng
 #ifndef BRC_LAWS_DISC_H
 #define BRC_LAWS_DISC_H
 
-#include "../strength_law.h"
+#include "strength_law.h"
 
 static const brc_disc_law brc_disc_law_fitted = {{
     .coordination = {{{cn.min():g}, {cn.max():g}}}, .radius = {{{radius.min():.4g}, {radius.max():.4g}}},

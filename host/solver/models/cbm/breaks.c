@@ -1,10 +1,10 @@
 /* Beams that break by the virial stress of their elements: limits, and the order of the passes. */
-#include "../../beam_closure.h"
-#include "../../beam_law.h"
-#include "../../beam_softening.h"
-#include "../../contact.h"
-#include "../../fracture_internal.h"
-#include "../../strength_law.h"
+#include "beam_closure.h"
+#include "../../laws/beam_law.h"
+#include "beam_softening.h"
+#include "../../effects/contact/contact.h"
+#include "../../effects/fracture/fracture_internal.h"
+#include "../../laws/strength_law.h"
 #include "cbm.h"
 #include <math.h>
 

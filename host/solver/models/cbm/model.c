@@ -1,5 +1,5 @@
 /* Model cbm: spheres joined by beams, NAH19 (docs/notebook/beams.md). */
-#include "../../guard_cause.h"
+#include "../../effects/guard_cause.h"
 #include "cbm.h"
 
 static const brc_model_statics statics = {

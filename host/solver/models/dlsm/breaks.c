@@ -1,7 +1,7 @@
 /* Bonds of dlsm that break (docs/notebook/fracture.md, "Fracture of cells"). */
-#include "../../cell_breaks_internal.h"
-#include "../../cell_softening.h"
-#include "../../sym3.h"
+#include "../../effects/fracture/cell_breaks_internal.h"
+#include "cell_softening.h"
+#include "../../core/sym3.h"
 #include "consistent.h"
 #include "dlsm.h"
 #include "rims.h"

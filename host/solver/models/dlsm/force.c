@@ -1,8 +1,8 @@
 /* Forces and energies of dlsm: the order of its passes (docs/notebook/theory.md T2). */
-#include "../../cell_breaks_internal.h"
-#include "../../cell_softening.h"
-#include "../../closed_faces.h"
-#include "../../contact.h"
+#include "../../effects/fracture/cell_breaks_internal.h"
+#include "cell_softening.h"
+#include "closed_faces.h"
+#include "../../effects/contact/contact.h"
 #include "dlsm.h"
 #include "rims.h"
 

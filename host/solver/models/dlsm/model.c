@@ -1,5 +1,5 @@
 /* Model dlsm: the conservative law (docs/notebook/theory.md T2). */
-#include "../../cell_breaks.h"
+#include "../../effects/fracture/cell_breaks.h"
 #include "dlsm.h"
 #include "rims.h"
 

@@ -1,6 +1,6 @@
 #include "rims.h"
-#include "../../cell_breaks_internal.h"
-#include "../../cell_softening.h"
+#include "../../effects/fracture/cell_breaks_internal.h"
+#include "cell_softening.h"
 
 bool brc_rims_energies_apart(const brc_simulation *s)
 {

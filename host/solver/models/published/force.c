@@ -1,5 +1,5 @@
 /* Forces and energies of dlsm-published: the order of its passes (docs/notebook/theory.md T3). */
-#include "../../cell_breaks_internal.h"
+#include "../../effects/fracture/cell_breaks_internal.h"
 #include "published.h"
 
 brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)

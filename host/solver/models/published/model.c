@@ -1,6 +1,6 @@
 /* Model dlsm-published: the published law, AGH19 (docs/notebook/theory.md T3). */
-#include "../../cell_breaks.h"
-#include "../../guard_cause.h"
+#include "../../effects/fracture/cell_breaks.h"
+#include "../../effects/guard_cause.h"
 #include "published.h"
 
 static const brc_model_breaking breaking = {.create = brc_published_breaks_create,

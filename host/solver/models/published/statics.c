@@ -1,5 +1,5 @@
 /* Equilibrium of dlsm-published: its rotations. */
-#include "../../statics.h"
+#include "../../statics/statics.h"
 #include "published.h"
 #include <math.h>
 

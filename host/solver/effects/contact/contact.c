@@ -1,0 +1,442 @@
+/* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
+#include "contact_internal.h"
+#include "../fracture/cell_breaks_internal.h"
+#include "../strikers/strikers_internal.h"
+#include "touching.h"
+#include <math.h>
+#include <string.h>
+
+static const double sphere_depth = 0.1; /* CONTACT_DEPTH of kernels/contact_law.h */
+
+/* In static stages and modes surfaces know nothing of each other. */
+static bool sleeps(const brc_simulation *s)
+{
+    return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
+}
+
+static brc_status make_passes(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const bool spheres = brc_has_spheres(s), pieces = c->n_pieces > 0;
+    brc_contact_scopes in;
+    brc_contact_scopes_make(s, &in);
+    const brc_pass_wanted of_pairs[] = {{&c->pass.spheres, "contact_spheres", "whole dt n", !spheres},
+                                        {&c->pass.cells, "contact_cells", "whole broke dt n", spheres},
+                                        {&c->pass.gather_moments, "contact_gather_moments", "book", !c->affine},
+                                        BRC_PASS(&c->pass.expose, "contact_expose", "broken")};
+    BRC_TRY(BRC_PASSES_MAKE(s, &in.now, of_pairs));
+    BRC_TRY(BRC_PASSES(s, &in.state,
+                       {&c->pass.gather_turning, "contact_gather_turning", "sign kick book force torque", c->affine}));
+    const brc_scope request = brc_scope_of_request(&in.now);
+    BRC_TRY(BRC_PASSES(s, &request, {&c->pass.gather_forces, "contact_gather_forces", NULL, !c->affine}));
+    const brc_scope parts = {
+        .owner = "forces on strikers", .base = c, .tables = {&brc_contact_part_fields}, .outer = &in.now};
+    const brc_pass_wanted of_parts[] = {
+        {&c->pass.striker_parts, "contact_striker_parts", "n_blocks n_pairs n stride torque_at", !pieces},
+        {&c->pass.striker_load, "contact_striker_load", "n_blocks", !pieces}};
+    BRC_TRY(BRC_PASSES_MAKE(s, &parts, of_parts));
+    const brc_scope criterion = brc_scope_of_criterion(s, &in.now), sums = brc_scope_of_sums(s, &criterion);
+    return BRC_PASSES(s, &sums, {&c->pass.marked, "contact_marked", "step", !(spheres && s->fracture)});
+}
+
+static void tell_if_never(const brc_simulation *s)
+{
+    for (int32_t k = 0; k < s->scene->n_stages; ++k)
+        if (s->scene->stages[k].solver == BRC_SOLVER_DYNAMIC) return;
+    brc_log(s->context, BRC_LOG_WARNING,
+            "contact acts in dynamic stages and the scene has none: surfaces%s pass through each other; make the stage "
+            "`dynamic`",
+            s->scene->n_strikers > 0 ? ", walls and strikers" : "");
+}
+
+brc_status brc_contact_create(brc_simulation *s)
+{
+    if (!s->scene->has_contact) return BRC_OK;
+    tell_if_never(s);
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->contact, 1, "contact"));
+    s->contact->affine = s->model->surface == BRC_SURFACE_AFFINE;
+    s->contact->width = s->contact->affine ? 9 : 3;
+    s->contact->pose = (int)s->model->surface;
+    brc_contact_check_speed(s);
+    BRC_TRY(brc_contact_setup(s));
+    s->contact->is_linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
+    BRC_TRY(make_passes(s));
+    BRC_TRY(brc_contact_shapes(s));
+    BRC_TRY(brc_contact_rigid_create(s));
+    return brc_contact_search_create(s);
+}
+
+void brc_contact_free(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    if (!c) return;
+    brc_contact_fields_free(c);
+    if (c->bonded) brc_fields_free(&brc_bonded_list_fields, c->bonded);
+    brc_memory_free(c->bonded);
+    brc_memory_free(c->law_of);
+    brc_memory_free(c);
+    s->contact = NULL;
+}
+
+/* ---- when to look ---- */
+
+/* Cells that follow I + H are looked for when the next evaluation has found H. */
+static brc_status search_soon(brc_simulation *s)
+{
+    s->contact->due = s->contact->affine;
+    return s->contact->due ? BRC_OK : brc_contact_search(s);
+}
+
+brc_status brc_contact_gradients(brc_simulation *s)
+{
+    if (!s->contact) return BRC_OK;
+    BRC_TRY(brc_contact_pose(s));
+    if (!s->contact->due) return BRC_OK;
+    s->contact->due = false;
+    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
+    BRC_TRY(brc_contact_search(s));
+    brc_phase_within(s, before);
+    return BRC_OK;
+}
+
+/* No pairs, whatever initial fields brought near before the stage. */
+static brc_status fall_asleep(brc_simulation *s)
+{
+    brc_contact_list *l = &s->contact->now;
+    s->contact->due = false;
+    l->n_listed = l->n_pairs = l->n_busy = 0;
+    return brc_buffer_fill_zero(s->contact->stored);
+}
+
+brc_status brc_contact_restart(brc_simulation *s)
+{
+    if (!s->contact) return BRC_OK;
+    if (sleeps(s)) return fall_asleep(s);
+    BRC_TRY(brc_contact_detach(s));
+    return search_soon(s);
+}
+
+/* Bodies that stand in each other by less than is refused; of strikers it was told when they were made
+ * (striker_check.c). */
+static brc_status tell_of_overlap(brc_simulation *s, const brc_ledger *ledger)
+{
+    brc_touching now;
+    bool told = false;
+    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i)
+        told = told || s->strikers->told[i];
+    if (told || !(ledger->contact > 0)) return BRC_OK;
+    BRC_TRY(brc_simulation_touching(s, &now));
+    if (now.penetration > brc_striker_told_depth(s))
+        brc_log(s->context, BRC_LOG_WARNING,
+                "stage '%s': surfaces overlap as the scene starts, %.0f pairs by up to %.3g m, and hold %.3g J: they "
+                "begin pressed together",
+                brc_current_stage(s)->name, now.pairs, now.penetration, ledger->contact);
+    return BRC_OK;
+}
+
+brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger)
+{
+    static const double little = 1e-6; /* of the elastic energy: what a thousandth of its strains can press together */
+    if (!s->contact || s->stage < 0 || sleeps(s)) return BRC_OK;
+    if (s->stage == 0) return tell_of_overlap(s, ledger);
+    const brc_stage *before = s->scene->stages + s->stage - 1;
+    if (before->solver == BRC_SOLVER_DYNAMIC || !(ledger->contact > little * ledger->elastic)) return BRC_OK;
+    return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                    "stage '%s': surfaces overlap as it begins and hold %.3g J, beside %.3g J of elastic energy: stage "
+                    "'%s' knows no contact and pressed them into each other. Keep them apart by that "
+                    "much, or come to rest in a dynamic stage with mass damping",
+                    brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
+}
+
+brc_status brc_contact_follow(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    bool due, past;
+    if (!c) return BRC_OK;
+    if (c->quiet > 0) {
+        c->quiet -= 1;
+        return BRC_OK;
+    }
+    BRC_TRY(brc_contact_look(s, &due, &past));
+    return due ? search_soon(s) : BRC_OK;
+}
+
+/* ---- forces ---- */
+
+bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r)
+{
+    return s->contact && !r->homogeneous && r->displacement == s->displacement && s->contact->now.n_pairs > 0;
+}
+
+/* No strikers: a buffer that no kernel touches. */
+
+brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool broke)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    const int32_t n = s->layout->n_rows;
+    const int32_t n_items = whole ? l->n_pairs : c->n_todo;
+    if (n_items == 0) return BRC_OK;
+    if (brc_has_spheres(s))
+        return BRC_RUN(c->pass.spheres, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"dt", BRC_STATE(dt)},
+                       {"n", BRC_INT(n)});
+    return BRC_RUN(c->pass.cells, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"broke", BRC_INT(broke ? 1 : 0)},
+                   {"dt", BRC_STATE(dt)}, {"n", BRC_INT(n)});
+}
+
+static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force,
+                                 brc_buffer *torque)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    return BRC_RUN(c->pass.gather_turning, l->n_busy, {"sign", BRC_STATE(sign)}, {"kick", BRC_STATE(kick)},
+                   {"book", BRC_INT(book)}, {"force", BRC_BUF(force)}, {"torque", BRC_BUF(torque)});
+}
+
+/* Forces and torques of the elements on strikers. */
+static brc_status load_strikers(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    if (c->n_pieces == 0) return BRC_OK;
+    const int32_t n = s->strikers->n, n_blocks = (l->n_pairs + BRC_CONTACT_PAIRS - 1) / BRC_CONTACT_PAIRS;
+    BRC_TRY(BRC_RUN(c->pass.striker_parts, n * n_blocks, {"n_blocks", BRC_INT(n_blocks)},
+                    {"n_pairs", BRC_INT(l->n_pairs)}, {"n", BRC_INT(s->layout->n_rows)},
+                    {"stride", BRC_INT(BRC_CONTACT_RESULT + 2 * c->width)},
+                    {"torque_at", BRC_INT(BRC_CONTACT_RESULT + c->width)}));
+    return BRC_RUN(c->pass.striker_load, n, {"n_blocks", BRC_INT(n_blocks)});
+}
+
+/* Around breaks the pairs that these may have changed, in sweeps of openings those of the cells that open, else all. */
+static bool all_pairs(const brc_force_request *r)
+{
+    return !r->listed_pairs && (!r->rings || r->rings->whole_force);
+}
+
+/* The step that the evaluation ends; 0: the state is evaluated again. */
+static double step_of(const brc_simulation *s, const brc_force_request *r)
+{
+    return r->book == BRC_BOOK_WORK ? s->time_step.value : 0;
+}
+
+brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    const int book = r->book == BRC_BOOK_WORK;
+    BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
+    return BRC_RUN(c->pass.gather_moments, l->n_busy, {"book", BRC_INT(book)});
+}
+
+brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list *l = &c->now;
+    if (c->affine)
+        BRC_TRY(brc_pass_run_on(c->pass.gather_forces, l->n_busy, r, NULL, NULL));
+    else {
+        BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
+        BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));
+    }
+    return load_strikers(s);
+}
+
+/* ---- breaks ---- */
+
+/* Did a beam break in this step? */
+static brc_status beams_broke(brc_simulation *s, bool *out)
+{
+    double groups;
+    BRC_TRY(BRC_RUN(s->contact->pass.marked, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))}));
+    BRC_TRY(brc_vector_sum(s, s->kinetic, s->n_groups, &groups));
+    *out = groups > 0;
+    return BRC_OK;
+}
+
+/* Who is touched by the breaks of this step (rings.h); beams: who lost one. */
+static brc_buffer *touched(const brc_simulation *s)
+{
+    return s->fracture->cells ? s->fracture->cells->rings->touched : s->contact->fresh;
+}
+
+brc_status brc_contact_expose(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    if (!s->fracture) return BRC_OK;
+    return BRC_RUN(c->pass.expose, n, {"broken", BRC_BUF(s->fracture->gone ? s->fracture->gone : s->fracture->broken)});
+}
+
+/* What the breaks of this step change of the list. */
+static brc_status list_breaks(brc_simulation *s)
+{
+    BRC_TRY(brc_contact_expose(s));
+    BRC_TRY(brc_contact_detach(s));
+    return brc_contact_list_more(s, touched(s));
+}
+
+brc_status brc_contact_settle(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    bool due, past;
+    if (!c) return BRC_OK;
+    BRC_TRY(brc_contact_pose(s));
+    BRC_TRY(brc_contact_look(s, &due, &past));
+    return past || c->always_whole ? brc_contact_search_more(s, touched(s)) : BRC_OK;
+}
+
+brc_status brc_contact_broken(brc_simulation *s, double half_kick)
+{
+    brc_contact_state *c = s->contact;
+    double before, after;
+    bool any = true;
+    if (!c) return BRC_OK;
+    if (c->pass.marked) BRC_TRY(beams_broke(s, &any));
+    if (!any) return BRC_OK;
+    if (!c->pass.marked) return list_breaks(s); /* cells: the forces are evaluated next */
+    const bool strikers = c->n_pieces > 0;
+    BRC_TRY(brc_contact_stored(s, &before));
+    if (strikers && half_kick > 0)
+        BRC_TRY(brc_strikers_advance(s, half_kick, 0, 0, false)); /* the step closes with the load of before ... */
+    if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, s->force, s->torque));
+    BRC_TRY(list_breaks(s));
+    BRC_TRY(brc_contact_settle(s));
+    if (c->now.n_pairs > 0) {
+        BRC_TRY(brc_contact_pairs(s, 0, false, true));
+        BRC_TRY(gather_turning(s, 1, half_kick, 0, s->force, s->torque));
+        BRC_TRY(load_strikers(s));
+    }
+    if (strikers) BRC_TRY(brc_strikers_book(s, BRC_BOOK_START));
+    if (strikers && half_kick > 0)
+        BRC_TRY(
+            brc_strikers_advance(s, -half_kick, 0, 0, false)); /* ... and the next one opens with what is there now */
+    BRC_TRY(brc_contact_stored(s, &after));
+    c->born += after - before;
+    return BRC_OK;
+}
+
+/* ---- energy and the time step ---- */
+
+brc_status brc_contact_stored(brc_simulation *s, double *out)
+{
+    *out = 0;
+    return s->contact ? brc_vector_sum(s, s->contact->stored, s->layout->n_rows, out) : BRC_OK;
+}
+
+brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger)
+{
+    const int32_t n = s->layout->n_rows;
+    if (!s->contact) return BRC_OK;
+    double spin;
+    BRC_TRY(brc_contact_stored(s, &ledger->contact));
+    BRC_TRY(brc_contact_spin_energy(s, &spin));
+    ledger->kinetic += spin;
+    BRC_TRY(brc_vector_sum(s, s->contact->lost_friction, n, &ledger->friction));
+    BRC_TRY(brc_vector_sum(s, s->contact->lost_impact, n, &ledger->impact));
+    ledger->fracture -= s->contact->born; /* what a break leaves in the surfaces it did not take away */
+    return BRC_OK;
+}
+
+/* Stiffest springs of element e against material `other`: normal, and tangential with what turning adds to it [N/m]. */
+static double stiffest(const brc_simulation *s, int64_t e, int32_t other)
+{
+    const brc_domain *d = s->domain;
+    const double *law = brc_contact_law_of(s, s->material_of_element[e], other);
+    const bool linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
+    const double rub = law[4] > 0 ? law[3] : 0;
+    if (brc_has_spheres(s)) { /* a sphere has R^2 / I = 5 / (2 m) */
+        const double k = law[2] > 0 ? law[2]
+                         : linear   ? law[0] * d->radius[e]
+                                    : 2 * law[0] * d->radius[e] * sqrt(sphere_depth);
+        return k * fmax(1, 3.5 * rub);
+    }
+    /* a cube of edge h: contact through a whole face is k_n A^2 / h^3 = k_n h, and (h / 2)^2 / I = 3 / (2 m) */
+    return (law[2] > 0 ? law[2] : law[1] * cbrt(d->volume[e])) * fmax(1, 2.5 * rub);
+}
+
+/* The largest area in which a striker meets the bodies: of the boxes around both, the smaller section across an axis
+ * [m^2]. */
+static double meeting_area(const brc_simulation *s, int32_t striker)
+{
+    const brc_striker_surface *surface = &s->strikers->body[striker].surface;
+    const double(*b)[3] = s->domain->bounds;
+    double width[2][3] = {{0}}, most = 0;
+    for (int c = 0; c < 3; ++c) {
+        double low = INFINITY, high = -INFINITY;
+        for (int32_t k = 0; k < surface->n_corners; ++k) {
+            low = fmin(low, surface->corner[3 * (int64_t)k + c]);
+            high = fmax(high, surface->corner[3 * (int64_t)k + c]);
+        }
+        width[0][c] = high - low;
+        width[1][c] = b[1][c] - b[0][c];
+    }
+    for (int c = 0; c < 3; ++c) {
+        const int i = (c + 1) % 3, j = (c + 2) % 3;
+        most = fmax(most, fmin(width[0][i] * width[0][j], width[1][i] * width[1][j]));
+    }
+    return most;
+}
+
+/* omega^2 of a free striker on all n elements that it may touch at once, their springs k in one with sum K: k (u - U)^2
+ * <= 2 k u^2 + 2 k U^2, so 4 k / m for elements between two springs and 2 K / M for the striker; turning, springs at
+ * its rim have up to three times that arm squared over its gyration's. Dashpots, each a share b of what is critical for
+ * its pair of reduced mass m', together are a share z = b sqrt(n m' / M) of it for the striker: such an oscillator
+ * bears steps up to 2 / omega (sqrt(1 + z^2) - z). */
+static double fastest_striker(const brc_simulation *s)
+{
+    const brc_domain *d = s->domain;
+    double fastest = 0;
+    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i) {
+        const brc_striker *striker = s->scene->strikers + i;
+        const double mass = s->strikers->body[i].mass;
+        double stiffness = 0, damping = 0; /* of unit area: K [N/m^3], n m' b^2 [kg/m^2] */
+        if (striker->motion != BRC_STRIKER_FREE) continue;
+        for (int64_t e = 0; e < d->n_elements; ++e) {
+            const double size = brc_has_spheres(s) ? 2 * d->radius[e] : cbrt(d->volume[e]),
+                         share = brc_contact_law_of(s, s->material_of_element[e], striker->material)[5];
+            const double own = d->volume[e] * s->elastic[s->material_of_element[e]].density;
+            stiffness = fmax(stiffness, stiffest(s, e, striker->material) / (size * size));
+            damping = fmax(damping, share * share * own * mass / ((own + mass) * size * size));
+        }
+        const double area = meeting_area(s, i), z = sqrt(damping * area / mass), slower = sqrt(1 + z * z) - z;
+        fastest = fmax(fastest, (striker->held_rotation ? 2 : 8) * stiffness * area / (mass * slower * slower));
+    }
+    return fastest;
+}
+
+/* Two bodies of mass m pressed together from either side by springs k: omega^2 = 2 k / m at a wall or between two
+ * springs and 4 k / m between two equal bodies. */
+brc_status brc_contact_critical_step(brc_simulation *s, double *out)
+{
+    const brc_domain *d = s->domain;
+    *out = INFINITY;
+    if (!s->contact) return BRC_OK;
+    double fastest = fastest_striker(s);
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        for (int32_t other = 0; other < s->scene->n_materials; ++other)
+            fastest = fmax(fastest,
+                           4 * stiffest(s, e, other) / (d->volume[e] * s->elastic[s->material_of_element[e]].density));
+    *out = 2 / sqrt(fastest);
+    return BRC_OK;
+}
+
+/* Two equal elements without bonds are an oscillator of half their mass between their surfaces: half a period of it is
+ * a blow. */
+void brc_contact_check_step(const brc_simulation *s, const char *stage, double touching, const brc_time_step *step)
+{
+    static const double enough = 20; /* steps of a blow: restitutions are met to 0.02 (docs/notebook/contact.md) */
+    const brc_domain *d = s->domain;
+    const double steps = M_PI / sqrt(2) * touching / step->value;
+    bool damped = false, loose = s->scene->has_fracture;
+    if (!s->contact || !(steps < enough)) return;
+    for (int64_t k = 0; k < (int64_t)s->scene->n_materials * s->scene->n_materials; ++k)
+        damped = damped || s->contact->law_of[k * BRC_CONTACT_LAW + 5] > 0;
+    for (int64_t e = 0; e < d->n_elements && !loose; ++e)
+        loose = d->row_start[e + 1] == d->row_start[e];
+    if (!damped || !loose) return;
+    brc_log(s->context, BRC_LOG_INFO,
+            "stage '%s': elements without bonds may be through a blow in %.2g steps, too few for the restitution that "
+            "is asked for; %g steps meet it to two hundredths: "
+            "time_step: {auto: {safety: %.2g}}",
+            stage, steps, enough, step->safety * steps / enough);
+}

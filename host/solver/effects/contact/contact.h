@@ -1,0 +1,76 @@
+/* Touching: of free surfaces, fragments and strikers (docs/notebook/contact.md). Nothing of it exists in scenes without
+ * `interactions: {contact: ...}`.
+ *
+ * A step asks in this order: brc_contact_follow when the elements have moved, brc_contact_gradients,
+ * brc_contact_moments and brc_contact_forces while the forces are evaluated, brc_contact_broken when bonds broke. */
+#ifndef BRC_SOLVER_CONTACT_H
+#define BRC_SOLVER_CONTACT_H
+
+#include "../../run/simulation_internal.h"
+
+typedef struct brc_contact_state brc_contact_state;
+
+/* s->contact, after fracture and strikers are there. It sleeps in static stages and modes, which come before dynamic
+ * ones (the reader sees to it). BRC_BAD_INPUT: models or shapes that cannot touch. */
+brc_status brc_contact_create(brc_simulation *s);
+void brc_contact_free(brc_simulation *s);
+
+/* Elements were moved by hand or a stage begins: look for pairs again. */
+brc_status brc_contact_restart(brc_simulation *s);
+/* The forces of the start of a stage are there, with this ledger: BRC_BAD_INPUT if the static stage before it has
+ * pressed surfaces into each other; told if they overlap as the run begins. */
+brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger);
+/* Elements moved by a step: look again where they moved far enough. */
+brc_status brc_contact_follow(brc_simulation *s);
+/* dlsm: the rotations of rigid cells go into the gradients. */
+brc_status brc_contact_pose(brc_simulation *s);
+/* dlsm: the gradients of this evaluation are there: the same, and the search that follow, restart or broken asked for,
+ * which wants to know how cells stand now. */
+brc_status brc_contact_gradients(brc_simulation *s);
+/* dlsm: pairs are evaluated, and held_moment, zeroed before, gains their moments. */
+brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r);
+/* Forces (and, in models that turn, the evaluation and torques) of touching pairs, added. */
+brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r);
+/* Some pair may touch: whether contact has anything to do with this evaluation. */
+bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r);
+
+/* Bonds broke at the end of this step. Cells: those of dlsm without bonds become rigid bodies, and what is exposed now
+ * is listed; the forces are evaluated afterwards. Beams: the same, and forces and velocities are put right (half_kick
+ * as brc_fracture_step). */
+brc_status brc_contact_broken(brc_simulation *s, double half_kick);
+/* Cells, after that, with the gradients that the breaks left: where something moved so far by them all pairs are looked
+ * for again. */
+brc_status brc_contact_settle(brc_simulation *s);
+/* Cells, after that: elements of pairs that the breaks may have changed are given the level `to` where they have none
+ * (rings.h). */
+brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to);
+/* dlsm, sweeps of openings: a search is due, so that the next evaluation is one of all elements. */
+bool brc_contact_is_due(const brc_simulation *s);
+/* The pairs of touched [n_rows] elements, for requests of listed_pairs, and for brc_contact_spread; they hold until the
+ * number of lists that were made is another one. */
+brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched);
+int64_t brc_contact_lists(const brc_simulation *s);
+/* Rigid cells: momentum of turning gains kick times torque, then they turn for a time of drift [s]; extra as the kernel
+ * advance_rotation. */
+brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra);
+
+/* dlsm, after breaks: where most cells are without bonds the others are listed ... */
+brc_status brc_contact_list_bonded(brc_simulation *s);
+/* ... for the element passes, as bonds give cells without any no force, and no stress (rings.h). NULL: there is no
+ * list. */
+const struct brc_ring_list *brc_contact_bonded(const brc_simulation *s);
+
+/* What surfaces hold now, as last evaluated [J]. */
+brc_status brc_contact_stored(brc_simulation *s, double *out);
+/* Terms contact, friction, impact of the ledger, and what is kinetic or numerical or fracture of contact's own. */
+brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger);
+/* Largest stable time step of the pairs that may touch [s]. */
+brc_status brc_contact_critical_step(brc_simulation *s, double *out);
+/* Tells where single elements may meet in so few steps that their restitution cannot be what is asked. touching: what
+ * brc_contact_critical_step gave. */
+void brc_contact_check_step(const brc_simulation *s, const char *stage, double touching, const brc_time_step *step);
+
+/* What surfaces remember (state_store.h): who is exposed and rigid, the pairs with their friction, what was lost. */
+brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store);
+
+#endif

@@ -1,0 +1,437 @@
+/* The list of pairs that may touch: a grid of hashed cells, sorted on the device (kernels/contact_search.cl,
+ * scan.cl). */
+#include "contact_internal.h"
+#include "../strikers/strikers_internal.h"
+#include <math.h>
+
+enum { SCAN_BLOCK = 1024, SORT_BINS = 256, MOST_QUIET = 64, FEWEST_QUIET = 8 };
+
+/* A table of lists anew, for n things. */
+static brc_status renew(brc_simulation *s, const brc_field_table *table, int64_t n, void *owner)
+{
+    const brc_wants wants = brc_wants_listed(&s->wants, n);
+    return brc_fields_create(s->device, table, &wants, owner);
+}
+
+static int32_t blocks_of(int64_t n, int32_t block)
+{
+    return (int32_t)((n + block - 1) / block);
+}
+
+/* start [n + 1]: running sums of x [n]; *total: that of all. */
+static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *start, int64_t *total)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n_blocks = blocks_of(n, SCAN_BLOCK);
+    int32_t sum = 0;
+    BRC_TRY(BRC_LAUNCH(c->kernel.scan_sums, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.scan_tops, 1, BRC_INT(1), BRC_INT(n_blocks), BRC_BUF(c->sums)));
+    BRC_TRY(BRC_LAUNCH(c->kernel.scan_fill, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums),
+                       BRC_BUF(start)));
+    if (total) {
+        BRC_TRY(brc_buffer_read(start, 4 * n, &sum, 4));
+        *total = sum;
+    }
+    return BRC_OK;
+}
+
+static brc_status make_passes(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_scopes in;
+    brc_contact_scopes_make(s, &in);
+    static const brc_value_row moves[] = {{"moved", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_contact_state, moved)}};
+    const brc_scope survey = {.owner = "moves since the last search", .base = c, BRC_VALUES(moves), .outer = &in.state};
+    BRC_TRY(BRC_PASSES(s, &survey, BRC_PASS(&c->pass.drift, "contact_drift", "n"),
+                       BRC_PASS(&c->pass.moved, "contact_moved", "n")));
+    const brc_pass_wanted of_lists[] = {BRC_PASS(&c->pass.extent, "contact_extent", NULL),
+                                        BRC_PASS(&c->pass.largest, "contact_largest", "n"),
+                                        BRC_PASS(&c->pass.drift_mean, "contact_drift_mean", "n_blocks"),
+                                        BRC_PASS(&c->pass.busy, "contact_busy", "any at busy"),
+                                        BRC_PASS(&c->pass.list, "contact_list", NULL),
+                                        BRC_PASS(&c->pass.keys, "contact_keys", "per_edge mask key row"),
+                                        BRC_PASS(&c->pass.buckets, "contact_buckets", "key"),
+                                        BRC_PASS(&c->pass.again, "contact_again", "whole per_edge mask row"),
+                                        BRC_PASS(&c->pass.kept, "contact_kept", NULL),
+                                        BRC_PASS(&c->pass.keep, "contact_keep", "any"),
+                                        BRC_PASS(&c->pass.changed, "contact_changed", "n touched"),
+                                        BRC_PASS(&c->pass.spread, "contact_spread", "n to level"),
+                                        BRC_PASS(&c->pass.count, "contact_count", "per_edge mask row"),
+                                        BRC_PASS(&c->pass.fill, "contact_fill", "rows per_edge mask row any"),
+                                        BRC_PASS(&c->pass.own_pairs, "contact_own_pairs", NULL),
+                                        BRC_PASS(&c->pass.other_pairs, "contact_other_pairs", NULL),
+                                        BRC_PASS(&c->pass.pack, "contact_pack", "stride at"),
+                                        BRC_PASS(&c->pass.carry, "contact_carry", "had stride"),
+                                        BRC_PASS(&c->pass.pieces, "contact_pieces", NULL),
+                                        BRC_PASS(&c->pass.pieces_moved, "contact_pieces_moved", "first")};
+    return BRC_PASSES_MAKE(s, &in.before, of_lists);
+}
+
+brc_status brc_contact_search_create(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&c->kernel.scan_sums, "scan_sums"},
+                  {&c->kernel.scan_tops, "scan_tops"},
+                  {&c->kernel.scan_fill, "scan_fill"},
+                  {&c->kernel.sort_count, "sort_count"},
+                  {&c->kernel.sort_move, "sort_move"}};
+    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
+        BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(make_passes(s));
+    BRC_TRY(brc_fields_create(s->device, &brc_contact_sum_fields, &s->wants, c));
+    BRC_TRY(brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->now));
+    return brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->before);
+}
+
+/* Largest of each column of n rows of c->moved from the first on; as they are where there are none. */
+static brc_status largest_of(brc_simulation *s, int32_t first, int32_t n, double out[BRC_CONTACT_MOVED])
+{
+    const int64_t rows = first + n;
+    double *value = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &value, BRC_CONTACT_MOVED * rows, "moves since the last search"));
+    const brc_status status =
+        brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value,
+                     BRC_CONTACT_MOVED * rows);
+    for (int64_t b = first; b < rows; ++b)
+        for (int k = 0; k < BRC_CONTACT_MOVED; ++k)
+            out[k] = b == first ? value[BRC_CONTACT_MOVED * b + k] : fmax(out[k], value[BRC_CONTACT_MOVED * b + k]);
+    brc_memory_free(value);
+    return status;
+}
+
+/* How far and how fast elements and pieces of strikers moved since the list was made: columns of contact_moved and
+ * contact_pieces_moved. */
+typedef struct survey {
+    double element[BRC_CONTACT_MOVED], piece[BRC_CONTACT_MOVED];
+} survey;
+
+static brc_status take_survey(brc_simulation *s, survey *out)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
+    *out = (survey){.element = {0}};
+    BRC_TRY(BRC_RUN(c->pass.drift, n_blocks, {"n", BRC_INT(n)}));
+    BRC_TRY(BRC_RUN(c->pass.drift_mean, 1, {"n_blocks", BRC_INT(n_blocks)}));
+    BRC_TRY(BRC_RUN(c->pass.moved, n_blocks, {"n", BRC_INT(n)}));
+    if (c->n_pieces) BRC_TRY(BRC_RUN(c->pass.pieces_moved, c->n_pieces, {"first", BRC_INT(n_blocks)}));
+    BRC_TRY(largest_of(s, 0, n_blocks, out->element));
+    return c->n_pieces ? largest_of(s, n_blocks, c->n_pieces, out->piece) : BRC_OK;
+}
+
+brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
+{
+    brc_contact_state *c = s->contact;
+    const double dt = s->time_step.value;
+    survey now;
+    BRC_TRY(take_survey(s, &now));
+    /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and
+     * of the way to the next piece of a striker. */
+    const double left = 0.5 * c->skin - now.element[0], v = 2 * now.element[1] * dt,
+                 a = 2 * sqrt(now.element[2]) * dt * dt;
+    const double clear = -now.element[3] - now.piece[0], v_piece = 2 * (now.element[4] + sqrt(now.piece[1])) * dt,
+                 a_piece = 2 * (sqrt(now.element[5]) + (c->n_pieces ? brc_strikers_pushed(s) : 0)) * dt * dt;
+    int64_t steps = 0;
+    while (steps < MOST_QUIET) {
+        const double t = (double)(steps + 1);
+        if (!(t * (v + t * a) < left) || !(t * (v_piece + t * a_piece) < clear)) break;
+        ++steps;
+    }
+    *past = !(left > 0) || !(clear > 0);
+    *due = *past || (steps < FEWEST_QUIET && (left < 0.25 * c->skin || clear < 0.5 * c->skin));
+    c->quiet = steps;
+    return BRC_OK;
+}
+
+/* Where the scene leaves the skin open: such that a list lasts some MOST_QUIET steps at four times the present speeds
+ * (a thin skin sifts better, a thick one lasts longer). */
+static brc_status choose_skin(brc_simulation *s)
+{
+    static const double thinnest = 0.05, thickest = 0.5; /* of the mean size of an element */
+    brc_contact_state *c = s->contact;
+    survey now;
+    c->skin = s->scene->contact.skin;
+    if (c->skin > 0) return BRC_OK;
+    BRC_TRY(take_survey(s, &now));
+    c->skin = fmin(fmax(8 * MOST_QUIET * now.element[1] * s->time_step.value, thinnest * c->size), thickest * c->size);
+    return BRC_OK;
+}
+
+/* Sort the exposed elements by the key of their cell. *sorted: which of the two arrays has them in the end. */
+static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask, int *sorted)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t m = c->now.n_listed, n_blocks = blocks_of(m, SCAN_BLOCK);
+    int at = 0;
+    BRC_TRY(BRC_RUN(c->pass.keys, m, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
+                    {"key", BRC_BUF(c->key[0])}, {"row", BRC_BUF(c->row[0])}));
+    for (int shift = 0; mask >> shift; shift += 8, at = 1 - at) {
+        BRC_TRY(BRC_LAUNCH(c->kernel.sort_count, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift),
+                           BRC_BUF(c->key[at]), BRC_BUF(c->count)));
+        BRC_TRY(scan(s, c->count, SORT_BINS * (int64_t)n_blocks, c->digits, NULL));
+        BRC_TRY(BRC_LAUNCH(c->kernel.sort_move, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift),
+                           BRC_BUF(c->key[at]), BRC_BUF(c->row[at]), BRC_BUF(c->digits), BRC_BUF(c->key[1 - at]),
+                           BRC_BUF(c->row[1 - at])));
+    }
+    *sorted = at;
+    BRC_TRY(brc_buffer_fill_zero(c->first));
+    BRC_TRY(brc_buffer_fill_zero(c->last));
+    return BRC_RUN(c->pass.buckets, m, {"key", BRC_BUF(c->key[at])});
+}
+
+/* Room for m exposed elements. */
+static brc_status make_room(brc_simulation *s, int64_t m)
+{
+    brc_contact_state *c = s->contact;
+    const int64_t buckets = brc_contact_buckets(m);
+    if (!c->first || buckets > s->wants.bucket_room) {
+        s->wants.bucket_room = buckets;
+        BRC_TRY(brc_fields_create(s->device, &brc_contact_bucket_fields, &s->wants, c));
+    }
+    if (c->key[0] && m <= s->wants.exposed_room) return BRC_OK;
+    s->wants.exposed_room = brc_contact_exposed_room(&s->wants, m);
+    return brc_fields_create(s->device, &brc_contact_grid_fields, &s->wants, c);
+}
+
+/* Arrays of the list to be made; the larger of what is asked for and what it has. */
+static brc_status room_for_listed(brc_simulation *s, brc_contact_list *l, int64_t m)
+{
+    if (l->list && brc_buffer_bytes(l->list) >= 4 * m) return BRC_OK;
+    return brc_fields_create(s->device, &brc_contact_listed_fields, &s->wants, l);
+}
+static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64_t n)
+{
+    if (l->entry && n <= l->entry_room) return BRC_OK;
+    l->entry_room = brc_contact_room(n);
+    return renew(s, &brc_contact_entry_fields, l->entry_room, l);
+}
+/* Numbers of a result. */
+static int32_t stride_of(const brc_contact_state *c)
+{
+    return BRC_CONTACT_RESULT + 2 * c->width;
+}
+
+static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t n)
+{
+    brc_contact_state *c = s->contact;
+    if (!l->ends || n > l->pair_room) {
+        l->pair_room = brc_contact_room(n);
+        BRC_TRY(renew(s, &brc_contact_pair_fields, l->pair_room, l));
+    }
+    if (c->n_pieces) {
+        const int64_t parts = 6 * (int64_t)s->strikers->n * blocks_of(l->pair_room, BRC_CONTACT_PAIRS);
+        if (!c->part || parts > c->part_room) {
+            c->part_room = parts;
+            BRC_TRY(renew(s, &brc_contact_part_fields, parts, c));
+        }
+    }
+    if (c->result && n <= c->result_room) return BRC_OK;
+    c->result_room = brc_contact_room(n);
+    return renew(s, &brc_contact_result_fields, c->result_room, c);
+}
+
+/* Running sums over n pairs. */
+static brc_status room_for_sums(brc_simulation *s, int64_t n)
+{
+    brc_contact_state *c = s->contact;
+    if (n <= c->sums_room) return BRC_OK;
+    c->sums_room = brc_contact_room(n);
+    return renew(s, &brc_contact_sum_fields, c->sums_room, c);
+}
+
+/* Results of the list before are on their way: those of pairs that touched, since the others hold nothing. */
+static brc_status pack_results(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int64_t n = c->before.n_pairs;
+    int64_t n_touching;
+    if (n == 0) return BRC_OK;
+    BRC_TRY(room_for_sums(s, n));
+    if (n > c->packed_at_room) {
+        c->packed_at_room = brc_contact_room(n);
+        BRC_TRY(renew(s, &brc_contact_packed_at_fields, c->packed_at_room, c));
+    }
+    BRC_TRY(scan(s, c->touch, n, c->packed_at, &n_touching));
+    if (!c->packed || n_touching > c->packed_room) {
+        c->packed_room = brc_contact_room(n_touching) + 1;
+        BRC_TRY(renew(s, &brc_contact_packed_fields, c->packed_room, c));
+    }
+    return BRC_RUN(c->pass.pack, n, {"stride", BRC_INT(stride_of(c))}, {"at", BRC_BUF(c->packed_at)});
+}
+
+/* Exposed elements in the list to be made. */
+static brc_status list_exposed(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    int64_t m;
+    BRC_TRY(scan(s, c->exposed, n, c->now.slot_of, &m));
+    c->now.n_listed = (int32_t)m;
+    BRC_TRY(make_room(s, m));
+    BRC_TRY(room_for_listed(s, &c->now, m));
+    return brc_pass_run(c->pass.list, n);
+}
+
+/* The slots of c->redo: all, or those whose entries a break may have changed; the others keep the number of theirs. */
+static brc_status find_redo(brc_simulation *s, bool whole, double per_edge, int32_t mask, int sorted, int64_t *n_redo)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_list *l = &c->now;
+    const int32_t m = l->n_listed;
+    BRC_TRY(brc_buffer_fill_zero(c->again));
+    BRC_TRY(BRC_RUN(c->pass.again, m, {"whole", BRC_INT(whole ? 1 : 0)}, {"per_edge", BRC_STATE(per_edge)},
+                    {"mask", BRC_INT(mask)}, {"row", BRC_BUF(c->row[sorted])}));
+    BRC_TRY(scan(s, c->again, m, c->pair_start, n_redo));
+    BRC_TRY(BRC_RUN(c->pass.busy, m, {"any", BRC_BUF(c->again)}, {"at", BRC_BUF(c->pair_start)},
+                    {"busy", BRC_BUF(c->redo)}));
+    return brc_pass_run(c->pass.kept, m);
+}
+
+/* Who is near whom. */
+static brc_status find_entries(brc_simulation *s, bool whole)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_list *l = &c->now;
+    const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
+    double most[BRC_CONTACT_MOVED];
+    int64_t near, n_redo;
+    int sorted, mask = SORT_BINS;
+    while (mask < 2 * (int64_t)m)
+        mask *= 2;
+    mask -= 1;
+    BRC_TRY(BRC_RUN(c->pass.largest, n_blocks, {"n", BRC_INT(n)}));
+    BRC_TRY(largest_of(s, 0, n_blocks, most));
+    const double per_edge = 1 / (1.000001 * (2 * most[0] + c->skin));
+    BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
+    BRC_TRY(find_redo(s, whole, per_edge, mask, sorted, &n_redo));
+    if (n_redo > 0)
+        BRC_TRY(BRC_RUN(c->pass.count, n_redo, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
+                        {"row", BRC_BUF(c->row[sorted])}));
+    BRC_TRY(scan(s, c->count, m, l->start, &near));
+    BRC_TRY(room_for_entries(s, l, near));
+    BRC_TRY(BRC_RUN(c->pass.keep, m, {"any", BRC_BUF(c->count)}));
+    if (n_redo == 0) return BRC_OK;
+    return BRC_RUN(c->pass.fill, n_redo, {"rows", BRC_INT(n)}, {"per_edge", BRC_STATE(per_edge)},
+                   {"mask", BRC_INT(mask)}, {"row", BRC_BUF(c->row[sorted])}, {"any", BRC_BUF(c->count)});
+}
+
+static brc_status number_pairs(brc_simulation *s, bool carried)
+{
+    brc_contact_state *c = s->contact;
+    brc_contact_list *l = &c->now;
+    const int32_t m = l->n_listed;
+    int64_t n_pairs;
+    BRC_TRY(scan(s, c->owned, m, c->pair_start, &n_pairs));
+    if (carried) BRC_TRY(pack_results(s));
+    BRC_TRY(room_for_pairs(s, l, n_pairs));
+    l->n_pairs = (int32_t)n_pairs;
+    BRC_TRY(brc_pass_run(c->pass.own_pairs, m));
+    BRC_TRY(brc_pass_run(c->pass.other_pairs, m));
+    if (n_pairs == 0) return BRC_OK;
+    int64_t n_busy;
+    BRC_TRY(scan(s, c->count, m, c->pair_start, &n_busy));
+    BRC_TRY(BRC_RUN(c->pass.busy, m, {"any", BRC_BUF(c->count)}, {"at", BRC_BUF(c->pair_start)},
+                    {"busy", BRC_BUF(l->busy)}));
+    l->n_busy = (int32_t)n_busy;
+    const brc_contact_list *old = &c->before;
+    const bool had = old->n_pairs > 0;
+    return BRC_RUN(c->pass.carry, n_pairs, {"had", BRC_INT(had ? 1 : 0)},
+                   {"stride", BRC_INT(carried ? stride_of(c) : 0)});
+}
+
+/* whole: all is looked for; carried: results of pairs go over. */
+static brc_status make_list(brc_simulation *s, bool whole, bool carried)
+{
+    brc_contact_state *c = s->contact;
+    const brc_contact_list last = c->now;
+    c->now = c->before;
+    c->before = last;
+    c->now.n_listed = c->now.n_pairs = c->now.n_busy = 0;
+    c->n_todo = 0;
+    c->lists += 1;
+    BRC_TRY(list_exposed(s));
+    if (c->now.n_listed == 0) return BRC_OK;
+    BRC_TRY(find_entries(s, whole));
+    return number_pairs(s, carried);
+}
+
+brc_status brc_contact_list_again(brc_simulation *s)
+{
+    return make_list(s, true, false);
+}
+
+/* The pairs of elements that lost bonds or are touched. */
+static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
+{
+    brc_contact_state *c = s->contact;
+    int64_t n_todo;
+    const int64_t n_pairs = c->now.n_pairs;
+    c->n_todo = 0;
+    if (n_pairs == 0) return BRC_OK;
+    if (n_pairs > c->todo_room) {
+        c->todo_room = brc_contact_room(n_pairs);
+        BRC_TRY(renew(s, &brc_contact_changed_fields, c->todo_room, c));
+    }
+    BRC_TRY(room_for_sums(s, n_pairs));
+    BRC_TRY(BRC_RUN(c->pass.changed, n_pairs, {"n", BRC_INT(s->layout->n_rows)}, {"touched", BRC_BUF(touched)}));
+    BRC_TRY(scan(s, c->flag, n_pairs, c->flag_start, &n_todo));
+    BRC_TRY(BRC_RUN(c->pass.busy, n_pairs, {"any", BRC_BUF(c->flag)}, {"at", BRC_BUF(c->flag_start)},
+                    {"busy", BRC_BUF(c->todo)}));
+    c->n_todo = (int32_t)n_todo;
+    return BRC_OK;
+}
+
+brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)
+{
+    BRC_TRY(make_list(s, false, true));
+    return find_changed(s, touched);
+}
+
+bool brc_contact_is_due(const brc_simulation *s)
+{
+    return s->contact && (s->contact->due || s->contact->always_whole);
+}
+int64_t brc_contact_lists(const brc_simulation *s)
+{
+    return s->contact ? s->contact->lists : 0;
+}
+brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched)
+{
+    return s->contact ? find_changed(s, touched) : BRC_OK;
+}
+
+brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to)
+{
+    brc_contact_state *c = s->contact;
+    if (!c || c->n_todo == 0) return BRC_OK;
+    return BRC_RUN(c->pass.spread, c->n_todo, {"n", BRC_INT(s->layout->n_rows)}, {"to", BRC_INT(to)},
+                   {"level", BRC_BUF(level)});
+}
+
+static brc_status search(brc_simulation *s, bool carried)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    c->quiet = 0;
+    c->searches += 1;
+    BRC_TRY(brc_pass_run(c->pass.extent, n));
+    if (c->n_pieces) BRC_TRY(brc_pass_run(c->pass.pieces, c->n_pieces));
+    BRC_TRY(choose_skin(s));
+    BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */
+    if (c->torque) BRC_TRY(brc_buffer_fill_zero(c->torque));
+    if (c->n_pieces) BRC_TRY(brc_buffer_fill_zero(s->strikers->load));
+    return make_list(s, true, carried);
+}
+
+brc_status brc_contact_search(brc_simulation *s)
+{
+    return search(s, false);
+}
+
+brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched)
+{
+    BRC_TRY(search(s, true));
+    return find_changed(s, touched);
+}

@@ -1,0 +1,131 @@
+/* Polyhedra of the elements and of the strikers' pieces on the device, and where the pieces are. */
+#include "../../../../preprocess/shapes/convex.h"
+#include "contact_internal.h"
+#include "../strikers/strikers_internal.h"
+#include <math.h>
+#include <string.h>
+
+/* Numbers of one kind, first those of the elements and then those of the pieces. */
+static brc_status upload_both(brc_simulation *s, brc_buffer *out, const double *first, int64_t n_first,
+                              const double *second, int64_t n_second, const char *what)
+{
+    double *all = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second, what));
+    if (n_first) memcpy(all, first, (size_t)n_first * sizeof *all);
+    if (n_second) memcpy(all + n_first, second, (size_t)n_second * sizeof *all);
+    const brc_status status = brc_upload_state(s, out, all, n_first + n_second);
+    brc_memory_free(all);
+    return status;
+}
+
+/* Starts [n + 1] of the elements and of the pieces after them; NULL: elements have none. */
+static brc_status upload_starts(brc_simulation *s, brc_buffer *out, const int32_t *first, int64_t n_first,
+                                const int32_t *second, int64_t n_second, const char *what)
+{
+    const int32_t before = first ? first[n_first] : 0;
+    int32_t *all = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second + 1, what));
+    for (int64_t k = 0; first && k <= n_first; ++k)
+        all[k] = first[k];
+    for (int64_t k = 0; k <= n_second; ++k)
+        all[n_first + k] = before + (second ? second[k] : 0);
+    const brc_status status = brc_upload_int(out, all, n_first + n_second + 1);
+    brc_memory_free(all);
+    return status;
+}
+
+static brc_status upload_shapes(brc_simulation *s, const brc_convex *cells, const brc_convex *pieces)
+{
+    brc_contact_state *c = s->contact;
+    const char *what = "polyhedra";
+    const int64_t n = s->domain->n_elements, np = pieces->n;
+    const int64_t corners = cells->n ? cells->corner_start[n] : 0, faces = cells->n ? cells->face_start[n] : 0,
+                  loops = cells->n ? cells->loop_start[faces] : 0;
+    const int64_t more_corners = np ? pieces->corner_start[np] : 0, more_faces = np ? pieces->face_start[np] : 0,
+                  more_loops = np ? pieces->loop_start[more_faces] : 0;
+    int32_t *loop = NULL;
+    double *nothing = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, upload_both(s, c->corner, cells->corner, 3 * corners, pieces->corner, 3 * more_corners, what));
+    BRC_TRY_OR(cleanup, upload_both(s, c->plane, cells->plane, 4 * faces, pieces->plane, 4 * more_faces, what));
+    if (!cells->n) BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &nothing, n, what));
+    BRC_TRY_OR(cleanup, upload_both(s, c->radius, cells->n ? cells->radius : nothing, n, pieces->radius, np, what));
+    BRC_TRY_OR(cleanup, upload_starts(s, c->corner_start, cells->n ? cells->corner_start : NULL, n,
+                                      pieces->corner_start, np, what));
+    BRC_TRY_OR(cleanup,
+               upload_starts(s, c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
+    BRC_TRY_OR(cleanup, upload_starts(s, c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start,
+                                      more_faces, what));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &loop, loops + more_loops, what));
+    if (loops) memcpy(loop, cells->loop, (size_t)loops * sizeof *loop);
+    if (more_loops) memcpy(loop + loops, pieces->loop, (size_t)more_loops * sizeof *loop);
+    BRC_TRY_OR(cleanup, brc_upload_int(c->loop, loop, loops + more_loops));
+cleanup:
+    brc_memory_free(loop);
+    brc_memory_free(nothing);
+    return status;
+}
+
+/* Of each piece a ball that holds it, about the middle of its corners; of a plane its normal and height. */
+static void outline(const brc_strikers *t, int32_t p, double out[4])
+{
+    const brc_convex *v = &t->convex;
+    const int32_t begin = v->corner_start[p], end = v->corner_start[p + 1];
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, most = 0;
+    if (t->piece_kind[p] == BRC_PIECE_PLANE) {
+        memcpy(out, v->plane + 4 * (int64_t)v->face_start[p], 4 * sizeof *out);
+        return;
+    }
+    for (int64_t k = begin; k < end; ++k)
+        for (int c = 0; c < 3; ++c) {
+            low[c] = fmin(low[c], v->corner[3 * k + c]);
+            high[c] = fmax(high[c], v->corner[3 * k + c]);
+        }
+    for (int c = 0; c < 3; ++c)
+        out[c] = 0.5 * (low[c] + high[c]);
+    for (int64_t k = begin; k < end; ++k) {
+        double square = 0;
+        for (int c = 0; c < 3; ++c)
+            square += (v->corner[3 * k + c] - out[c]) * (v->corner[3 * k + c] - out[c]);
+        most = fmax(most, square);
+    }
+    out[3] = fmax(sqrt(most), t->piece_radius[p]);
+}
+
+static brc_status upload_pieces(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const brc_strikers *t = s->strikers;
+    const int32_t n = c->n_pieces;
+    int32_t *number = NULL;
+    double *own = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n, "pieces of strikers"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &own, 4 * (int64_t)n, "pieces of strikers"));
+    for (int32_t p = 0; p < n; ++p)
+        outline(t, p, own + 4 * (int64_t)p);
+    for (int32_t p = 0; p < n; ++p)
+        number[p] = (int32_t)t->piece_kind[p];
+    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_striker, t ? t->piece_striker : number, n));
+    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_kind, number, n));
+    BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_own, own, 4 * (int64_t)n));
+    if (n) BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_radius, t->piece_radius, n));
+cleanup:
+    brc_memory_free(number);
+    brc_memory_free(own);
+    return status;
+}
+
+brc_status brc_contact_shapes(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    brc_convex cells = {0}, none = {0};
+    brc_status status = BRC_OK;
+    if (!brc_has_spheres(s)) BRC_TRY_OR(cleanup, brc_convex_of_domain(s->context, s->domain, 0, &cells));
+    if (cells.n && c->n_pieces) BRC_TRY_OR(cleanup, brc_strikers_check_edges(s, &cells));
+    BRC_TRY_OR(cleanup, upload_shapes(s, &cells, c->n_pieces ? &s->strikers->convex : &none));
+    BRC_TRY_OR(cleanup, upload_pieces(s));
+cleanup:
+    brc_convex_free(&cells);
+    return status;
+}

@@ -1,0 +1,21 @@
+/* What touches now, in scenes with contact. */
+#ifndef BRC_SOLVER_TOUCHING_H
+#define BRC_SOLVER_TOUCHING_H
+
+#include "../../run/simulation.h"
+
+typedef struct brc_touching {
+    double pairs;       /* that touch [-] */
+    double sliding;     /* of them [-] */
+    double penetration; /* deepest: of spheres the overlap, of cells its volume over its area, and no more than the way
+                           out of one of their faces where that is beyond a tenth of a cell [m] */
+    double force;       /* sum of the magnitudes of their normal forces [N] */
+} brc_touching;
+/* As of the last evaluation of the forces; read from the device. BRC_BAD_INPUT: no contact. */
+brc_status brc_simulation_touching(brc_simulation *simulation, brc_touching *out);
+
+/* Device bytes that a pair of surfaces near each other takes at most, beside what elements do; 0: no contact. What
+ * brc_simulation_planned_bytes cannot know: how many come near. */
+int64_t brc_simulation_pair_bytes(const brc_simulation *simulation);
+
+#endif

@@ -1,0 +1,291 @@
+#include "../../run/ahead.h"
+#include "cell_breaks_internal.h"
+#include "../../models/dlsm/cell_softening.h"
+#include "../../models/dlsm/closed_faces.h"
+#include "../contact/contact.h"
+#include "rings.h"
+#include "strengths.h"
+#include "../strikers/strikers_internal.h"
+#include <math.h>
+
+static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
+
+/* ---- what is made once ---- */
+
+/* Limits of the bonds, the smallest of each element, and where a bond's other half is stored. */
+static brc_status upload_bonds(brc_simulation *s, const double *strength)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    brc_cell_breaks *cells = s->fracture->cells;
+    double *limit = NULL, *whole = NULL, *least = NULL;
+    int32_t *twin = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, n_entries, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &least, layout->n_rows, "smallest limits"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "twins"));
+    for (int32_t r = 0; r < layout->n_rows; ++r)
+        least[r] = never;
+    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, d, twin));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        const double value = h >= 0 ? strength[d->bond[h]] : 0;
+        limit[k] = value > 0 ? value : never;
+        whole[k] = h >= 0;
+        if (h < 0) continue;
+        double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
+        *own = fmin(*own, limit[k]);
+    }
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->limit, limit, n_entries));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->alive, whole, n_entries));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->least, least, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_int(cells->twin, twin, n_entries));
+cleanup:
+    brc_memory_free(limit);
+    brc_memory_free(whole);
+    brc_memory_free(least);
+    brc_memory_free(twin);
+    return status;
+}
+
+static bool breaks(const brc_wants *w)
+{
+    return w->scene->has_fracture && brc_wants_cells(w);
+}
+static bool dlsm_by_bond(const brc_wants *w)
+{
+    return brc_wants_deforming(w) && !w->by_element;
+}
+static bool dlsm_by_element(const brc_wants *w)
+{
+    return brc_wants_deforming(w) && w->by_element;
+}
+static bool published_by_bond(const brc_wants *w)
+{
+    return brc_wants_rigid_cells(w) && !w->by_element;
+}
+
+#define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
+static const brc_field_row rows[] = {
+    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa",
+     BRC_KEPT("cells.limit", BRC_KEEP_BROKEN)},
+    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-",
+     BRC_KEPT("cells.alive", BRC_KEEP_BROKEN)},
+    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-", BRC_NOT_KEPT},
+    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-", BRC_NOT_KEPT},
+    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa", BRC_NOT_KEPT},
+    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa",
+     BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
+    {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
+    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-", BRC_NOT_KEPT},
+    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(stiffest), "supports", "1/m^2",
+     BRC_NOT_KEPT},
+    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-", BRC_NOT_KEPT},
+    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-", BRC_NOT_KEPT},
+    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-", BRC_NOT_KEPT},
+    {"own_branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
+    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(spanned), "supports", "-",
+     BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
+
+const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *outer, brc_cell_scopes *room)
+{
+    room->breaks = brc_scope_of_breaks(s, outer);
+    room->rings = brc_scope_of_rings(s->fracture->cells->rings, &room->breaks);
+    room->cells = (brc_scope){.owner = "breaks of cells",
+                              .base = s->fracture->cells,
+                              .tables = {&brc_cell_break_fields},
+                              .outer = &room->rings};
+    return &room->cells;
+}
+
+static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
+{
+    const brc_scope run = brc_scope_of_run(s);
+    brc_cell_scopes of_state;
+    const brc_scope *state = brc_cell_scopes_make(s, &run, &of_state);
+    return BRC_PASSES(s, state, BRC_PASS(&c->break_pass, "cells_break", "step width"),
+                      BRC_PASS(&c->share, "cells_share", "step per_weight list"));
+}
+
+brc_status brc_cell_breaks_create(brc_simulation *s)
+{
+    brc_strengths strengths = {0};
+    brc_status status = BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
+    BRC_TRY(brc_fields_create(s->device, &brc_cell_break_fields, &s->wants, s->fracture->cells));
+    s->fracture->cells->by_element = !brc_scene_breaks_by_bond(s->scene, s->scene->model.kind);
+    BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
+    BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
+    BRC_TRY_OR(cleanup, brc_rings_create(s, &s->fracture->cells->rings));
+    BRC_TRY_OR(cleanup, make_passes(s, s->fracture->cells));
+    BRC_TRY_OR(cleanup, s->model->breaking->create(s));
+    if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
+    BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
+    BRC_TRY_OR(cleanup, brc_closed_faces_create(s));
+cleanup:
+    brc_strengths_free(&strengths);
+    return status;
+}
+
+void brc_cell_breaks_free(brc_simulation *s)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    if (!c) return;
+    brc_softening_free(s);
+    brc_closed_faces_free(s);
+    brc_rings_free(&c->rings);
+    brc_fields_free(&brc_cell_break_fields, c);
+    brc_memory_free(c);
+    s->fracture->cells = NULL;
+}
+
+/* ---- the step ---- */
+
+bool brc_cell_breaks_by_bond(const brc_simulation *s)
+{
+    return s->fracture && s->fracture->cells && !s->fracture->cells->by_element;
+}
+
+/* Bonds above a share of their limit are marked; *n: marks. */
+static brc_status mark_bonds(brc_simulation *s, double share, double *n)
+{
+    brc_cell_breaks *c = s->fracture->cells;
+    if (c->by_element) return brc_cell_criteria_mark(s, n);
+    BRC_TRY(BRC_RUN(c->check, s->n_groups, {"share", BRC_COEFF(share)}));
+    return brc_ahead_count(s, c->found, s->n_groups, n);
+}
+
+/* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held.
+ * *energy: what the elements whose energy that changes held before, each looked at before a bond near it goes [J]. */
+static brc_status break_marked(brc_simulation *s, double *energy)
+{
+    brc_breaking *f = s->fracture;
+    brc_cell_breaks *c = f->cells;
+    double left = 1;
+    *energy = 0;
+    while (left > 0) {
+        double more;
+        BRC_TRY(brc_rings_find(s, c->rings));
+        BRC_TRY(s->model->breaking->energy_around(s, c->rings, true, &more));
+        *energy += more;
+        BRC_TRY(brc_closed_faces_keep(s));
+        BRC_TRY(BRC_RUN(c->break_pass, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))},
+                        {"width", BRC_INT(s->model->breaking->area_width)}));
+        BRC_TRY(s->model->breaking->rebuild(s, &left));
+    }
+    return BRC_OK;
+}
+
+/* Velocities gain kick times force over mass, spins of elements whose bonds turn with them likewise ... */
+static brc_status kick(brc_simulation *s, double by)
+{
+    const int32_t n = s->layout->n_rows;
+    if (by == 0) return BRC_OK;
+    BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)}));
+    if (s->model->turns)
+        BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)},
+                        {"extra", BRC_STATE(0)}));
+    return BRC_OK;
+}
+/* ... and those of rigid cells and of strikers, which are in no ring. */
+static brc_status kick_others(brc_simulation *s, double by)
+{
+    if (by == 0) return BRC_OK;
+    BRC_TRY(brc_contact_turn(s, by, 0, 0));
+    return s->strikers ? brc_strikers_advance(s, by, 0, 0, false) : BRC_OK;
+}
+
+/* The rings around the bonds that broke. Pairs of surfaces that the breaks changed act on elements of ring 2 or make
+ * them so: their fluxes change as those of ring 2 do, their energy does not. */
+static brc_status find_rings(brc_simulation *s)
+{
+    brc_rings *rings = s->fracture->cells->rings;
+    const bool wide = s->model->breaking->wide;
+    if (s->contact) {
+        const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
+        BRC_TRY(brc_contact_broken(s, 0));
+        BRC_TRY(brc_rings_touched(s, rings, &rings->around));
+        if (s->model->breaking->gradients_around) {
+            brc_force_request request = brc_force_request_of_state(s, BRC_BOOK_NOTHING);
+            request.rings = rings;
+            BRC_TRY(s->model->breaking->gradients_around(s, &request));
+        }
+        BRC_TRY(brc_contact_settle(s));
+        brc_phase_within(s, phase);
+    }
+    if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
+    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
+    return brc_rings_close(s, rings, s->model->breaking->places(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP,
+                           &rings->around);
+}
+
+/* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in
+ * elements. */
+static brc_status outside_energy(brc_simulation *s, double *out)
+{
+    double touching, closed;
+    BRC_TRY(brc_force_held_energy(s, out));
+    BRC_TRY(brc_contact_stored(s, &touching));
+    BRC_TRY(brc_closed_faces_stored(s, &closed));
+    *out += touching + closed;
+    return BRC_OK;
+}
+
+brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share)
+{
+    brc_breaking *f = s->fracture;
+    brc_rings *rings = f->cells->rings;
+    double marked, before, outside_before, after, outside, weight;
+    if (brc_softening_is_on(s))
+        BRC_TRY(brc_softening_step(s, share, &marked));
+    else
+        BRC_TRY(mark_bonds(s, share, &marked));
+    if (!(marked > 0)) return BRC_OK;
+    /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left:
+     * velocities gain half a kick of the one and lose half a kick of the other, in the rings where they differ. */
+    rings->half_kick = half_kick;
+    BRC_TRY(outside_energy(s, &outside_before));
+    BRC_TRY(kick_others(s, half_kick));
+    if (rings->whole_force) BRC_TRY(kick(s, half_kick));
+    if (rings->whole_force) BRC_TRY(brc_rings_keep_force(s, rings));
+    BRC_TRY(break_marked(s, &before));
+    if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
+    BRC_TRY(brc_softening_recount(s));
+    BRC_TRY(brc_closed_faces_look(s));
+    BRC_TRY(find_rings(s));
+    BRC_TRY(brc_force_around_breaks(s, rings));
+    BRC_TRY(brc_closed_faces_change(s, rings->whole_force ? 0 : half_kick));
+    if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
+    if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
+    BRC_TRY(kick_others(s, -half_kick));
+    BRC_TRY(s->model->breaking->energy_around(s, rings, false, &after));
+    BRC_TRY(outside_energy(s, &outside));
+    BRC_TRY(brc_rings_sum(s, &rings->around, 0, f->cells->weight, &weight));
+    if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
+    BRC_TRY(brc_softening_refresh(s));
+    const int32_t n = rings->around.n[0];
+    BRC_TRY(BRC_RUN(f->cells->share, n, {"step", BRC_INT(brc_fracture_moment(s))},
+                    {"per_weight", BRC_STATE((before + outside_before - after - outside) / weight)},
+                    {"list", BRC_BUF(rings->around.upto[0])}));
+    BRC_TRY(brc_rings_forget(rings, &rings->around));
+    BRC_TRY(brc_softening_settle(s, &rings->around));
+    return brc_contact_list_bonded(s);
+}
+
+brc_status brc_cell_breaks_fail(brc_simulation *s, double half_kick)
+{
+    return brc_cell_breaks_step(s, half_kick, 1);
+}
+
+brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out)
+{
+    *out = 0;
+    return s->fracture->cells->by_element ? brc_cell_criteria_ratio(s, out) : s->model->breaking->ratio(s, out);
+}

@@ -1,0 +1,356 @@
+/* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
+#include "../../models/cbm/beam_closure.h"
+#include "../../models/cbm/beam_softening.h"
+#include "cell_breaks.h"
+#include "fracture_internal.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MOST_MEMBERS = 500,
+    MOST_ROWS = 1 << 28
+}; /* below SECOND_SHELL in kernels/fracture.cl; rows times 8 fit an int */
+
+const char *brc_break_mode_name(int32_t mode)
+{
+    static const char *const name[] = {"none", "tension", "compression", "shear", "detached"};
+    return mode >= BRC_BREAK_TENSION && mode <= BRC_BREAK_DETACHED ? name[mode] : name[0];
+}
+
+static brc_criterion_kind criterion(const brc_simulation *s)
+{
+    return brc_criterion_of(&s->scene->fracture, s->scene->model.kind);
+}
+
+/* ---- limits ---- */
+
+/* Slope of the shear limit and its size [Pa] of the solid. */
+static double shear_limit(const brc_fracture *f, double *slope)
+{
+    const double sine = sin(f->friction), cosine = cos(f->friction);
+    if (f->kind == BRC_CRITERION_MOHR_COULOMB) {
+        *slope = sine;
+        return 2 * f->cohesion * cosine;
+    }
+    if (f->kind == BRC_CRITERION_DRUCKER_PRAGER) { /* through the compressive edges of the Mohr-Coulomb pyramid */
+        *slope = 2 * sine / (sqrt(3) * (3 - sine));
+        return 6 * f->cohesion * cosine / (sqrt(3) * (3 - sine));
+    }
+    *slope = 0;
+    return 0;
+}
+
+/* The stress of a cell is that of the solid. */
+static brc_status limits_of_solid(const brc_limit_case *of, double limit[3])
+{
+    limit[0] = of->material->tension, limit[1] = of->material->compression, limit[2] = of->shear;
+    return BRC_OK;
+}
+
+static brc_status find_limits(brc_simulation *s)
+{
+    const brc_domain *d = s->domain;
+    const int32_t n_materials = s->scene->n_materials, n_pairs = s->scene->n_bodies * n_materials;
+    double *pair = NULL, *mean = NULL;
+    int64_t *count = NULL;
+    bool *known = NULL;
+    brc_status status = BRC_OK;
+    const double shear = shear_limit(&s->scene->fracture, &s->fracture->slope);
+    s->fracture->friction = sin(s->scene->fracture.friction);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &pair, 3 * (int64_t)n_pairs, "limits of materials"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &known, n_pairs, "limits of materials"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mean, s->scene->n_bodies, "radii of bodies"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &count, s->scene->n_bodies, "radii of bodies"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->fracture->limit, 3 * d->n_elements, "limits of elements"));
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0;
+        if (d->radius) mean[b] += d->radius[e];
+        count[b] += 1;
+    }
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0, m = s->material_of_element[e],
+                      at = b * n_materials + m;
+        if (!known[at]) {
+            const brc_limit_case of = {&s->scene->materials[m], b, e, (double)count[b], mean[b], shear};
+            BRC_TRY_OR(cleanup, s->model->limits ? s->model->limits(s, &of, pair + 3 * at)
+                                                 : limits_of_solid(&of, pair + 3 * at));
+        }
+        known[at] = true;
+        memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
+    }
+cleanup:
+    brc_memory_free(pair);
+    brc_memory_free(known);
+    brc_memory_free(mean);
+    brc_memory_free(count);
+    return status;
+}
+
+/* ---- arrays ---- */
+
+double brc_fracture_volume(const brc_domain *d, int64_t e)
+{
+    return 2 * d->volume[e] / (d->quality.volume_fraction > 0 ? d->quality.volume_fraction : 1);
+}
+
+/* Limits, and the volumes in the records. */
+static brc_status upload_rows(brc_simulation *s)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    double *record = NULL, *limit = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &record, 8 * (int64_t)layout->n_rows, "virial records"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, 3 * (int64_t)layout->n_rows, "limits"));
+    for (int64_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        double *volume = record + (8 * (r / layout->slice) + 6) * layout->slice + r % layout->slice;
+        volume[0] = e < 0 ? 1 : brc_fracture_volume(d, e);
+        volume[layout->slice] = 1 / volume[0];
+        for (int c = 0; e >= 0 && c < 3; ++c)
+            limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
+    }
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->limits, limit, 3 * (int64_t)layout->n_rows));
+cleanup:
+    brc_memory_free(record);
+    brc_memory_free(limit);
+    return status;
+}
+
+static bool breaks(const brc_wants *w)
+{
+    return w->scene->has_fracture;
+}
+/* By a stress of elements: beams always, cells where the criterion asks for it. */
+static bool breaks_by_element(const brc_wants *w)
+{
+    return breaks(w) && (brc_wants_spheres(w) || w->by_element);
+}
+static bool weighted(const brc_wants *w)
+{
+    return w->weighted || (w->softens && brc_wants_spheres(w));
+}
+
+#define AT(member) BRC_FIELD_AT(brc_breaking, member)
+static const brc_field_row break_rows[] = {
+    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-",
+     BRC_KEPT("fracture.step", BRC_KEEP_BROKEN)},
+    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-",
+     BRC_KEPT("fracture.mode", BRC_KEEP_BROKEN)},
+    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa",
+     BRC_KEPT("fracture.stress", BRC_KEEP_BROKEN)},
+    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J",
+     BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
+    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J",
+     BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_cells, AT(gone), "lost bonds", "-",
+     BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_beam_closure, AT(gone), "lost beams", "-",
+     BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
+    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-",
+     BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
+};
+BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
+static const brc_field_row criterion_rows[] = {
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_spheres, AT(record), "virial records", "J, m^3",
+     BRC_KEPT("fracture.record", BRC_KEEP_ALL)},
+    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_cells, AT(record), "virial records", "J, m^3",
+     BRC_NOT_KEPT},
+    {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa", BRC_NOT_KEPT},
+    {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa", BRC_NOT_KEPT},
+    {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-", BRC_NOT_KEPT},
+    {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa", BRC_NOT_KEPT},
+    {"ease", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(ease), "bounds of stress", "-", BRC_NOT_KEPT},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(weight), "bounds of stress", "m^3",
+     BRC_KEPT("fracture.weight", BRC_KEEP_ALL)},
+    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_cells, AT(weight), "bounds of stress", "m^3",
+     BRC_KEPT("cells.weight", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(reach), "bounds of stress", "m^3",
+     BRC_KEPT("fracture.reach", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_cells, AT(reach), "bounds of stress", "m^3", BRC_NOT_KEPT},
+    {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-", BRC_NOT_KEPT},
+    {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-", BRC_NOT_KEPT},
+    {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds", "-", BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_criterion_fields, "criteria of elements", BRC_LIFE_RUN, breaks_by_element, criterion_rows);
+
+brc_scope brc_scope_of_breaks(const brc_simulation *s, const brc_scope *outer)
+{
+    return (brc_scope){.owner = "broken bonds", .base = s->fracture, .tables = {&brc_break_fields}, .outer = outer};
+}
+
+brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer)
+{
+    static const brc_value_row values[] = {
+        {"inv_tension", BRC_VALUE_REAL, AT(scale[0])}, {"inv_compression", BRC_VALUE_REAL, AT(scale[1])},
+        {"inv_shear", BRC_VALUE_REAL, AT(scale[2])},   {"slope", BRC_VALUE_REAL, AT(slope)},
+        {"friction", BRC_VALUE_REAL, AT(friction)},    {"drucker_prager", BRC_VALUE_BOOL, AT(drucker_prager)},
+        {"weighted", BRC_VALUE_BOOL, AT(weighted)},    {"branch", BRC_VALUE_BUFFER, AT(branch)}};
+    return (brc_scope){.owner = "criterion",
+                       .base = s->fracture,
+                       .tables = {&brc_criterion_fields},
+                       BRC_VALUES(values),
+                       .outer = outer};
+}
+
+static brc_status make_passes(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    const brc_scope run = brc_scope_of_run(s), breaks = brc_scope_of_breaks(s, &run),
+                    criterion = brc_scope_of_criterion(s, &breaks);
+    const brc_pass_wanted of_state[] = {BRC_PASS(&f->stress_pass, "fracture_stress", "level"),
+                                        BRC_PASS(&f->stress_second, "fracture_stress_second", NULL),
+                                        BRC_PASS(&f->check, "fracture_check", "level step"),
+                                        BRC_PASS(&f->choose, "fracture_choose", "step"),
+                                        BRC_PASS(&f->ratio, "fracture_ratio", "ratio")};
+    return BRC_PASSES_MAKE(s, &criterion, of_state);
+}
+
+/* Elements within two shells of one: no more than degrees allow. */
+static int64_t most_members(const brc_domain *d)
+{
+    int64_t most = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        int64_t sum = 1 + d->row_start[e + 1] - d->row_start[e];
+        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
+            sum += d->row_start[d->neighbour[h] + 1] - d->row_start[d->neighbour[h]] - 1;
+        if (sum > most) most = sum;
+    }
+    return most;
+}
+
+brc_status brc_fracture_create_elements(brc_simulation *s, brc_buffer *branch)
+{
+    brc_breaking *f = s->fracture;
+    if (s->layout->n_rows >= MOST_ROWS)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "fracture: %d elements are more than the %d that can break",
+                        (int)s->layout->n_rows, MOST_ROWS);
+    if (s->scene->fracture.level == 2 && most_members(s->domain) > MOST_MEMBERS)
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "fracture: some element may have %lld others within two shells, level 2 counts up to %d; use level 1%s",
+            (long long)most_members(s->domain), MOST_MEMBERS,
+            brc_has_spheres(s) ? " or a lower coordination number" : "");
+    f->branch = branch;
+    f->drucker_prager = criterion(s) == BRC_CRITERION_DRUCKER_PRAGER;
+    BRC_TRY(make_passes(s));
+    BRC_TRY(find_limits(s));
+    BRC_TRY(brc_fields_create(s->device, &brc_criterion_fields, &s->wants, f));
+    BRC_TRY(brc_fracture_bound(s));
+    return upload_rows(s);
+}
+
+/* One line of the materials that bear anything. */
+static void tell_unbreakable(brc_simulation *s)
+{
+    const brc_scene *scene = s->scene;
+    char names[256] = "";
+    for (int32_t m = 0; m < scene->n_materials; ++m) {
+        bool used = false;
+        for (int32_t b = 0; b < scene->n_bodies; ++b)
+            used = used || brc_body_uses(&scene->bodies[b], m);
+        const size_t at = strlen(names);
+        if (used && !brc_material_breaks(scene, scene->model.kind, &scene->materials[m]))
+            snprintf(names + at, sizeof names - at, "%s'%s'", at ? ", " : "", scene->materials[m].name);
+    }
+    if (names[0])
+        brc_log(s->context, BRC_LOG_INFO,
+                "fracture: no strength%s is given for %s, which does not break; its bonds with others break by theirs",
+                brc_scene_breaks_by_bond(s->scene, s->scene->model.kind) ? " in tension" : "", names);
+}
+
+brc_status brc_fracture_create(brc_simulation *s)
+{
+    tell_unbreakable(s);
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture, 1, "fracture"));
+    BRC_TRY(brc_fields_create(s->device, &brc_break_fields, &s->wants, s->fracture));
+    return s->model->create_fracture(s);
+}
+
+void brc_fracture_free(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    if (!f) return;
+    brc_cell_breaks_free(s);
+    brc_beam_softening_free(s);
+    brc_beam_closure_free(s);
+    brc_fields_free(&brc_criterion_fields, f);
+    brc_fields_free(&brc_break_fields, f);
+    brc_memory_free(f->limit);
+    brc_memory_free(f->spans);
+    brc_memory_free(f->load);
+    brc_memory_free(f->events);
+    brc_memory_free(f);
+    s->fracture = NULL;
+}
+
+/* ---- the step ---- */
+
+static brc_status find_stress(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
+    if (level == 2) return brc_pass_run(f->stress_second, n);
+    return BRC_RUN(f->stress_pass, s->n_groups, {"level", BRC_INT(level)});
+}
+
+brc_status brc_fracture_choose(brc_simulation *s, int32_t moment)
+{
+    brc_breaking *f = s->fracture;
+    const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
+    if (level < 2) return BRC_RUN(f->check, s->n_groups, {"level", BRC_INT(level)}, {"step", BRC_INT(moment)});
+    BRC_TRY(find_stress(s));
+    return BRC_RUN(f->choose, n, {"step", BRC_INT(moment)});
+}
+
+brc_status brc_fracture_step(brc_simulation *s, double half_kick)
+{
+    return s->model->break_bonds(s, half_kick);
+}
+
+brc_status brc_fracture_lost(brc_simulation *s, double *out)
+{
+    *out = 0;
+    return s->fracture ? brc_vector_sum(s, s->fracture->lost, s->layout->n_rows, out) : BRC_OK;
+}
+
+brc_status brc_fracture_ratio(brc_simulation *s, double *out)
+{
+    const int32_t n = s->layout->n_rows;
+    brc_buffer *ratio = NULL;
+    double *value = NULL;
+    brc_status status = BRC_OK;
+    *out = 0;
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, n, "failure ratios"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
+    BRC_TRY_OR(cleanup, find_stress(s));
+    BRC_TRY_OR(cleanup, BRC_RUN(s->fracture->ratio, n, {"ratio", BRC_BUF(ratio)}));
+    BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        *out = fmax(*out, value[e]);
+cleanup:
+    brc_buffer_free(&ratio);
+    brc_memory_free(value);
+    return status;
+}
+
+brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
+{
+    *out = 0;
+    if (!s->fracture)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
+    return s->fracture->cells ? brc_cell_breaks_failure_ratio(s, out) : brc_fracture_ratio(s, out);
+}
+
+double brc_simulation_element_strength(const brc_simulation *s, int64_t e)
+{
+    return s->fracture && s->fracture->limit ? s->fracture->limit[3 * e] : 0;
+}
+
+double brc_simulation_implied_fracture_energy(const brc_simulation *s)
+{
+    return s->fracture ? s->fracture->implied_energy : 0;
+}

@@ -1,0 +1,102 @@
+/* What lets fracture_check pass by elements far from failure (kernels/fracture.cl): limits in common, volumes and
+ * marks; and the factors of bonds that scatter or lie in an interface. */
+#include "../../models/cbm/beam_softening.h"
+#include "strengths.h"
+#include <math.h>
+
+/* Room for the rounding of the bound and of what it bounds, as in failure_possible (kernels/failure.h). */
+static const double MARGIN = 0.999;
+
+/* Smallest limit of every kind over all elements; 0: none has one. */
+static void smallest_limits(const brc_simulation *s, double smallest[3])
+{
+    smallest[0] = smallest[1] = smallest[2] = 0;
+    for (int64_t k = 0; k < 3 * s->domain->n_elements; ++k) {
+        const double limit = s->fracture->limit[k];
+        if (limit > 0 && (!(smallest[k % 3] > 0) || limit < smallest[k % 3])) smallest[k % 3] = limit;
+    }
+}
+
+/* How many times as far as the smallest an element's own limits are; an element without limits is never near. */
+static double ease_of(const double *limit, const double smallest[3])
+{
+    double ease = 1e30;
+    for (int c = 0; c < 3; ++c)
+        if (limit[c] > 0) ease = fmin(ease, limit[c] / smallest[c]);
+    return ease;
+}
+
+static brc_status upload_bounds(brc_simulation *s, const double *weakest)
+{
+    brc_breaking *f = s->fracture;
+    const brc_domain *d = s->domain;
+    const int64_t n = s->layout->n_rows;
+    double *ease = NULL, *weight = NULL, smallest[3];
+    brc_status status = BRC_OK;
+    smallest_limits(s, smallest);
+    for (int c = 0; c < 3; ++c)
+        f->scale[c] = smallest[c] > 0 ? 1 / smallest[c] : 0;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ease, n, "bounds of stress"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &weight, n, "bounds of stress"));
+    for (int64_t r = 0; r < n; ++r) {
+        const int64_t e = s->layout->element_of_row[r];
+        ease[r] = 1e30; /* rows of no element never fail */
+        weight[r] = 1;
+        if (e < 0) continue;
+        ease[r] = MARGIN * (weakest ? weakest[r] : 1) * ease_of(f->limit + 3 * e, smallest);
+        weight[r] = brc_fracture_volume(d, e);
+        for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h)
+            weight[r] += brc_fracture_volume(d, d->neighbour[h]);
+    }
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->ease, ease, n));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weight, weight, n));
+cleanup:
+    brc_memory_free(ease);
+    brc_memory_free(weight);
+    return status;
+}
+
+/* Factors by entries, and the smallest of every row in *weakest [n_rows], the caller's. */
+static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond, double **weakest)
+{
+    brc_breaking *f = s->fracture;
+    const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
+    double *factor = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &factor, entries, "factors of bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, weakest, n, "factors of bonds"));
+    for (int64_t r = 0; r < n; ++r)
+        (*weakest)[r] = INFINITY;
+    for (int64_t slice = 0; slice < n / s->layout->slice; ++slice)
+        for (int64_t k = (int64_t)s->layout->slot_start[slice] * s->layout->slice;
+             k < (int64_t)s->layout->slot_start[slice + 1] * s->layout->slice; ++k) {
+            const int64_t h = s->layout->half_edge[k], r = slice * s->layout->slice + k % s->layout->slice;
+            factor[k] = h < 0 ? 1 : factor_of_bond[s->domain->bond[h]];
+            if (h >= 0 && factor[k] < (*weakest)[r]) (*weakest)[r] = factor[k];
+        }
+    for (int64_t r = 0; r < n; ++r)
+        if (!isfinite((*weakest)[r])) (*weakest)[r] = 1; /* no bonds */
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->factor, factor, entries));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weakest, *weakest, n));
+cleanup:
+    brc_memory_free(factor);
+    return status;
+}
+
+brc_status brc_fracture_bound(brc_simulation *s)
+{
+    brc_breaking *f = s->fracture;
+    brc_strengths strengths;
+    double *weakest = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
+    const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_softening.c */
+    f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
+    if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));
+    if (softens) BRC_TRY_OR(cleanup, brc_beam_softening_create(s, &strengths));
+    BRC_TRY_OR(cleanup, upload_bounds(s, weakest));
+cleanup:
+    brc_memory_free(weakest);
+    brc_strengths_free(&strengths);
+    return status;
+}

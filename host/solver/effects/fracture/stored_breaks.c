@@ -1,0 +1,167 @@
+/* What broke, for a store (state_store.h): kept of the broken bonds and of the elements that lost one only, since a new
+ * simulation has all others right. */
+#include "../../models/cbm/beam_closure.h"
+#include "../../models/cbm/beam_softening.h"
+#include "cell_breaks.h"
+#include "../../models/dlsm/cell_softening.h"
+#include "../../models/dlsm/closed_faces.h"
+#include "fracture_internal.h"
+#include "../../run/state_store.h"
+#include <string.h>
+
+/* Half-edges of broken bonds. */
+static brc_status find_broken(brc_simulation *s, brc_chosen *out)
+{
+    const int64_t n_entries = s->layout->n_slots * s->layout->slice;
+    int32_t *step = NULL;
+    uint8_t *broken = NULL;
+    brc_status status = BRC_OK;
+    int64_t n = 0;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &step, n_entries, "broken bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "broken bonds"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        if (s->layout->half_edge[k] < 0 || step[k] == 0) continue;
+        broken[s->layout->half_edge[k]] = 1;
+        ++n;
+    }
+    BRC_TRY_OR(cleanup, brc_memory_resize(s->context, (void **)&out->id, n, sizeof *out->id, "broken bonds"));
+    out->n = 0;
+    for (int64_t h = 0; h < s->domain->n_half_edges; ++h)
+        if (broken[h]) out->id[out->n++] = (int32_t)h;
+cleanup:
+    brc_memory_free(step);
+    brc_memory_free(broken);
+    return status;
+}
+
+brc_status brc_fracture_owners(brc_simulation *s, const brc_chosen *half_edges, brc_chosen *out)
+{
+    const brc_domain *d = s->domain;
+    BRC_TRY(
+        brc_memory_resize(s->context, (void **)&out->id, half_edges->n, sizeof *out->id, "elements with broken bonds"));
+    out->n = 0;
+    for (int64_t i = 0; i < half_edges->n; ++i) { /* rows of half-edges follow one another as their elements do */
+        const int32_t e = d->neighbour[d->twin[half_edges->id[i]]];
+        if (out->n == 0 || out->id[out->n - 1] != e) out->id[out->n++] = e;
+    }
+    return BRC_OK;
+}
+
+/* Ids that a file gives, before anything is looked up by them. */
+static brc_status check_ids(brc_simulation *s, const brc_chosen *half_edges)
+{
+    for (int64_t i = 0; i < half_edges->n; ++i)
+        if (half_edges->id[i] < 0 || half_edges->id[i] >= s->domain->n_half_edges ||
+            (i > 0 && half_edges->id[i] <= half_edges->id[i - 1]))
+            return BRC_FAIL(s->context, BRC_BAD_INPUT, "broken bonds: half-edge %d of %lld, after %d",
+                            (int)half_edges->id[i], (long long)s->domain->n_half_edges,
+                            i > 0 ? (int)half_edges->id[i - 1] : -1);
+    return BRC_OK;
+}
+
+/* A broken bond has no neighbour: it points home. */
+static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
+{
+    const brc_layout *layout = s->layout;
+    const int64_t n = layout->n_slots * layout->slice;
+    int32_t *neighbour = NULL;
+    uint8_t *broken = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "neighbours"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
+    for (int64_t i = 0; i < half_edges->n; ++i)
+        broken[half_edges->id[i]] = 1;
+    for (int32_t block = 0; block < layout->n_slices; ++block)
+        for (int64_t k = (int64_t)layout->slot_start[block] * layout->slice;
+             k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
+            if (layout->half_edge[k] >= 0 && broken[layout->half_edge[k]])
+                neighbour[k] = block * layout->slice + (int32_t)(k % layout->slice);
+    BRC_TRY_OR(cleanup, brc_buffer_write(s->neighbour, 0, neighbour, 4 * n));
+cleanup:
+    brc_memory_free(neighbour);
+    brc_memory_free(broken);
+    return status;
+}
+
+/* Stages that were entered, and the loads of static events: [first step, first load, first time, time step, stage]. */
+static brc_status walk_moments(brc_simulation *s, brc_state_store *store)
+{
+    enum { N = 5 };
+    brc_breaking *f = s->fracture;
+    double *spans = NULL;
+    int64_t n = f->n_spans;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spans, N * n, "stages with fracture"));
+    for (int64_t k = 0; k < n; ++k) {
+        const brc_break_span *span = &f->spans[k];
+        const double row[N] = {(double)span->first_step, (double)span->first_load, span->first_time, span->time_step,
+                               span->stage};
+        memcpy(spans + N * k, row, sizeof row);
+    }
+    BRC_TRY_OR(cleanup,
+               brc_store_array(s->context, store, "fracture.stages", BRC_STORED_DOUBLE, N, &n, (void **)&spans));
+    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.loads", BRC_STORED_DOUBLE, 1, &f->n_loads,
+                                        (void **)&f->load));
+    if (!store->loading) goto cleanup;
+    BRC_TRY_OR(cleanup, brc_memory_resize(s->context, (void **)&f->spans, n, sizeof *f->spans, "stages with fracture"));
+    f->n_spans = (int)n;
+    for (int64_t k = 0; k < n; ++k) {
+        const double *row = spans + N * k;
+        f->spans[k] = (brc_break_span){(int64_t)row[0], (int64_t)row[1], row[2], row[3], (int32_t)row[4]};
+    }
+cleanup:
+    brc_memory_free(spans);
+    return status;
+}
+
+/* Arrays of both models and of the criterion. A broken beam has no length, and leaves the volume that an element's
+ * stress is averaged over; records of beams follow from the forces but for what bonds that broke after them carried. */
+static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
+{
+    const brc_breaking *f = s->fracture;
+    brc_chosen elements = {0};
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
+    const struct {
+        const brc_field_table *table;
+        const void *owner;
+        bool there;
+    } walked[] = {{&brc_break_fields, f, true},
+                  {&brc_geometry_fields, s, true},
+                  {&brc_criterion_fields, f, f->record != NULL},
+                  {&brc_cell_break_fields, f->cells, f->cells != NULL}};
+    for (size_t k = 0; k < sizeof walked / sizeof *walked; ++k)
+        if (walked[k].there)
+            BRC_TRY_OR(cleanup, brc_store_fields(s, store,
+                                                 &(brc_kept_fields){.table = walked[k].table,
+                                                                    .owner = walked[k].owner,
+                                                                    .bonds = bonds,
+                                                                    .elements = &elements}));
+cleanup:
+    brc_memory_free(elements.id);
+    return status;
+}
+
+brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
+{
+    brc_chosen bonds = {0};
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, walk_moments(s, store));
+    if (!store->loading) BRC_TRY_OR(cleanup, find_broken(s, &bonds));
+    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.half_edges", BRC_STORED_INT32, 1, &bonds.n,
+                                        (void **)&bonds.id));
+    if (store->loading) {
+        BRC_TRY_OR(cleanup, check_ids(s, &bonds));
+        BRC_TRY_OR(cleanup, point_home(s, &bonds));
+    }
+    BRC_TRY_OR(cleanup, walk_arrays(s, store, &bonds));
+    BRC_TRY_OR(cleanup, brc_closed_faces_store_state(s, store, &bonds));
+    BRC_TRY_OR(cleanup, brc_softening_store_state(s, store));
+    BRC_TRY_OR(cleanup, brc_beam_softening_store_state(s, store));
+    status = brc_beam_closure_store_state(s, store);
+cleanup:
+    brc_memory_free(bonds.id);
+    return status;
+}

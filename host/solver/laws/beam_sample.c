@@ -1,0 +1,198 @@
+/* The elastic test of a bonded packing. The scene is made here: one material, one static stage of the linearised
+ * operator. */
+#include "beam_sample.h"
+#include "../../../preprocess/packing/beams.h"
+#include "../../../preprocess/packing/packing.h"
+#include "../../../preprocess/cells/seeds.h"
+#include "../../base/log.h"
+#include "../../base/memory.h"
+#include "beam_body.h"
+#include "../run/simulation.h"
+#include <stdio.h>
+#include <string.h>
+
+struct brc_beam_sample {
+    brc_solid *solid;
+    brc_packing packing;
+};
+
+brc_status brc_beam_sample_pack(brc_context *context, const brc_shape *shape, const brc_fill *fill, int n_threads,
+                                brc_beam_sample **out)
+{
+    brc_beam_sample *sample = NULL;
+    brc_status status = BRC_OK;
+    *out = NULL;
+    if (fill->kind != BRC_FILL_PACKING)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "a sample of beams is packed; expected a fill of kind packing");
+    BRC_TRY(brc_fill_check(context, fill));
+    BRC_TRY(BRC_ALLOCATE(context, &sample, 1, "sample of beams"));
+    BRC_TRY_OR(cleanup, brc_solid_create(context, shape, n_threads, &sample->solid));
+    BRC_TRY_OR(cleanup, brc_packing_make(context, sample->solid, fill, n_threads, &sample->packing));
+    *out = sample;
+    return BRC_OK;
+cleanup:
+    brc_beam_sample_free(&sample);
+    return status;
+}
+
+void brc_beam_sample_free(brc_beam_sample **sample)
+{
+    if (!sample || !*sample) return;
+    brc_packing_free(&(*sample)->packing);
+    brc_solid_free(&(*sample)->solid);
+    brc_memory_free(*sample);
+    *sample = NULL;
+}
+
+brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sample, double coordination, bool balanced,
+                                int n_threads, brc_domain **out)
+{
+    const int64_t n = sample->packing.n;
+    double *position = NULL, *radius = NULL;
+    brc_domain *domain = NULL;
+    brc_status status = BRC_OK;
+    *out = NULL;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain, 1, "domain"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &position, 3 * n, "spheres of a sample"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &radius, n, "spheres of a sample"));
+    memcpy(position, sample->packing.position, (size_t)(3 * n) * sizeof *position);
+    memcpy(radius, sample->packing.radius, (size_t)n * sizeof *radius);
+    BRC_TRY_OR(cleanup,
+               brc_beams_build(context, sample->solid, position, radius, n, coordination, balanced, n_threads, domain));
+    position = radius = NULL; /* the domain's now */
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->region, n, "material regions"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->body, n, "bodies"));
+    domain->quality.coordination_mean = 2.0 * (double)domain->n_bonds / (double)n;
+    domain->quality.volume_fraction = sample->packing.volume_fraction;
+    *out = domain;
+    domain = NULL;
+cleanup:
+    brc_memory_free(position);
+    brc_memory_free(radius);
+    brc_domain_free(&domain);
+    return status;
+}
+
+static const char *const walls[3][2] = {{"x-", "x+"}, {"y-", "y+"}, {"z-", "z+"}};
+
+/* Mean of one component of [n_elements][3] over the bonded members of a set. */
+static double mean_of(const brc_domain *d, const brc_set *set, const double *values, int component)
+{
+    double sum = 0;
+    int64_t n = 0;
+    for (int64_t k = 0; k < set->n_members; ++k) {
+        const int64_t e = set->members[k];
+        if (d->row_start[e + 1] == d->row_start[e]) continue;
+        sum += values[3 * e + component];
+        ++n;
+    }
+    return sum / (double)n;
+}
+
+static bool has_bonded(const brc_domain *d, const brc_set *set)
+{
+    for (int64_t k = 0; k < set->n_members; ++k)
+        if (d->row_start[set->members[k] + 1] > d->row_start[set->members[k]]) return true;
+    return false;
+}
+
+static brc_status find_walls(brc_context *context, const brc_domain *d, int32_t set[3][2])
+{
+    for (int c = 0; c < 3; ++c)
+        for (int side = 0; side < 2; ++side) {
+            set[c][side] = brc_domain_find_set(d, walls[c][side]);
+            if (set[c][side] < 0 || d->sets[set[c][side]].kind != BRC_SET_ELEMENTS)
+                return BRC_FAIL(
+                    context, BRC_BAD_INPUT,
+                    "elastic sample test: the sample has no wall '%s'; expected spheres packed into one box",
+                    walls[c][side]);
+            if (!has_bonded(d, &d->sets[set[c][side]]))
+                return BRC_FAIL(context, BRC_BAD_INPUT,
+                                "elastic sample test: no bonded element touches the wall '%s'; use more elements or a "
+                                "larger coordination number",
+                                walls[c][side]);
+        }
+    return BRC_OK;
+}
+
+/* What the displacements and the force say. */
+static void evaluate(const brc_domain *d, int32_t set[3][2], int axis, const double *displacement, double force,
+                     brc_beam_answer *out)
+{
+    double diameter = 0, edge[3], strain[3];
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        diameter += 2 * d->radius[e] / (double)d->n_elements;
+    for (int c = 0; c < 3; ++c) {
+        const brc_set *low = &d->sets[set[c][0]], *high = &d->sets[set[c][1]];
+        edge[c] = mean_of(d, high, d->position, c) - mean_of(d, low, d->position, c) + diameter;
+        strain[c] = (mean_of(d, high, displacement, c) - mean_of(d, low, displacement, c)) / edge[c];
+    }
+    const int y = (axis + 1) % 3, z = (axis + 2) % 3;
+    out->young = force / (edge[y] * edge[z]) / strain[axis];
+    out->lateral[0] = -strain[y] / strain[axis];
+    out->lateral[1] = -strain[z] / strain[axis];
+    out->poisson = (out->lateral[0] + out->lateral[1]) / 2;
+}
+
+brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const brc_domain *domain,
+                                const brc_beam_pull *pull, brc_beam_answer *out)
+{
+    const double start = brc_clock_s(), strain = 1e-6; /* the operator is linear: any strain gives the same ratios */
+    const int axis = pull->axis;
+    int32_t set[3][2];
+    double *displacement = NULL, reaction[3];
+    brc_simulation *simulation = NULL;
+    brc_status status = BRC_OK;
+    memset(out, 0, sizeof *out);
+    if (domain->element_kind != BRC_ELEMENT_SPHERE)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "elastic sample test: the sample is made of cells; expected spheres joined by beams");
+    BRC_TRY(find_walls(context, domain, set));
+    brc_material material = {.name = "unit",
+                             .young = 1,
+                             .poisson = 0.2,
+                             .density = 1,
+                             .beam_radius = pull->radius,
+                             .beam_young = pull->beam_young > 0 ? pull->beam_young : 1};
+    brc_body body = {.name = "sample"};
+    brc_load loads[2] = {{.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}, {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}};
+    for (int side = 0; side < 2; ++side) {
+        snprintf(loads[side].set, sizeof loads[side].set, "%s", walls[axis][side]);
+        loads[side].component[axis] = true;
+        loads[side].value[axis] = (side ? 0.5 : -0.5) * strain * (domain->bounds[1][axis] - domain->bounds[0][axis]);
+    }
+    brc_stage stage = {.name = "pull",
+                       .solver = BRC_SOLVER_STATIC,
+                       .n_loads = 2,
+                       .loads = loads,
+                       .tolerance = pull->tolerance > 0 ? pull->tolerance : 1e-5,
+                       .increments = 1};
+    brc_scene scene = {.version = 1,
+                       .folder = ".",
+                       .n_materials = 1,
+                       .materials = &material,
+                       .model = {.kind = BRC_MODEL_CBM, .beam_poisson = pull->beam_poisson, .keep_isolated = true},
+                       .n_bodies = 1,
+                       .bodies = &body,
+                       .n_stages = 1,
+                       .stages = &stage,
+                       .output = {.n_frames = -1}};
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &displacement, 3 * domain->n_elements, "displacements"));
+    BRC_TRY_OR(cleanup, brc_simulation_create(context, &scene, domain, device, &simulation));
+    BRC_TRY_OR(cleanup, brc_simulation_run(simulation));
+    BRC_TRY_OR(cleanup, brc_simulation_displacement(simulation, displacement));
+    BRC_TRY_OR(cleanup, brc_simulation_reaction(simulation, set[axis][1], reaction));
+    evaluate(domain, set, axis, displacement, reaction[axis] / material.beam_young, out);
+    brc_beam_body bonds;
+    BRC_TRY_OR(cleanup, brc_beam_body_of(context, domain, -1, &bonds));
+    out->inner = bonds.inner;
+    out->n_bonds = domain->n_bonds;
+    for (int64_t e = 0; e < domain->n_elements; ++e)
+        out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
+    out->iterations = brc_simulation_static_report(simulation).iterations;
+    out->seconds = brc_clock_s() - start;
+cleanup:
+    brc_simulation_free(&simulation);
+    brc_memory_free(displacement);
+    return status;
+}

@@ -1,0 +1,506 @@
+#include "cell_softening.h"
+#include "../cbm/beam_softening.h"
+#include "../../effects/fracture/cell_breaks_internal.h"
+#include "../../effects/contact/contact.h"
+#include "../../effects/fracture/crack_range.h"
+#include "dlsm.h"
+#include <math.h>
+
+/* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open
+ * (docs/notebook/fracture.md). */
+static const double steepest = 0.5;
+/* Faces look at their own traction where the stress of a cell is above this share of the limit (kernels/softening.cl,
+ * soft_check): the two agree within a few percent where nothing is open. */
+static const double screen = 0.7;
+/* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated
+ * from above, that they take: less than a half would let them overshoot. What they leave of the balance costs energy in
+ * quick cracks (docs/notebook/fracture.md). */
+enum { N_SWEEPS = 3 };
+static const double stiffen = 0.6;
+/* Openings over the length of the bond from which on the sides of a broken face stand clear of each other. */
+static const double clear = 0.05;
+/* Shear that the sides of a crack bear, over the push along it that a face carries (docs/notebook/theory.md T10). */
+static const double retention = 0.3;
+/* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at
+ * notches (docs/notebook/fracture.md, "Notched specimens"). */
+static const double least_cells = 4;
+
+/* Components of `crack` (kernels/softening.cl). */
+enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 32 };
+enum { APART = 2 }; /* SOFT_APART, of `open` */
+
+struct brc_softening_faces {
+    brc_pass *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
+    brc_buffer *crack, *open, *lead;    /* [n_slots][WIDTH][C], [n_slots][C] */
+    brc_buffer *n_open, *reach, *shear; /* [n_rows] */
+    brc_buffer *shear_limit;            /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
+    brc_buffer *shear_energy;           /* [n_slots][C] and G_II S [J] */
+    double shear_least;                 /* no face slides where the norm of the stress is below [Pa] */
+    brc_buffer *rubbed;                 /* [n_rows] energy lost to friction between the sides of broken faces [J] */
+    brc_ring_list around;               /* cells with open faces, for the sweeps */
+    bool any;                           /* some face has opened */
+    bool is_listed; /* around is of the faces that are open now, and, with contact, of the pairs there are */
+    int64_t lists;  /* brc_contact_lists of these */
+};
+typedef struct brc_softening_faces softening_faces;
+
+static bool softens(const brc_wants *w)
+{
+    return w->scene->has_fracture && brc_wants_cells(w) && w->softens;
+}
+
+static bool slides(const brc_wants *w)
+{
+    return brc_scene_slides(w->scene, w->scene->model.kind);
+}
+
+#define AT(member) BRC_FIELD_AT(softening_faces, member)
+static const brc_field_row rows[] = {
+    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-",
+     BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
+    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-",
+     BRC_KEPT("softening.open", BRC_KEEP_ALL)},
+    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-", BRC_NOT_KEPT},
+    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-",
+     BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
+    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-",
+     BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
+    {"shear_limit", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_limit), "limits of shear", "Pa", BRC_NOT_KEPT},
+    {"shear_energy", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_energy), "fracture energies in shear", "J",
+     BRC_NOT_KEPT},
+    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa", BRC_NOT_KEPT},
+    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
+     BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
+};
+BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
+
+static softening_faces *faces_of(const brc_simulation *s)
+{
+    return s->fracture && s->fracture->cells ? s->fracture->cells->softening : NULL;
+}
+bool brc_softening_is_on(const brc_simulation *s)
+{
+    return faces_of(s) != NULL;
+}
+
+static brc_status make_passes(brc_simulation *s, softening_faces *f)
+{
+    const brc_scope run = brc_scope_of_run(s);
+    brc_cell_scopes scopes;
+    const brc_scope faces = {.owner = "cohesion of faces",
+                             .base = f,
+                             .tables = {&brc_softening_fields},
+                             .outer = brc_cell_scopes_make(s, &run, &scopes)};
+    const brc_pass_wanted wanted[] = {
+        BRC_PASS(&f->gradient, "soft_gradient", "listed list"),
+        BRC_PASS(&f->flux, "soft_flux", "listed list"),
+        BRC_PASS(&f->take_force, "soft_take_force", "force"),
+        BRC_PASS(&f->coast, "soft_coast", NULL),
+        BRC_PASS(&f->move, "soft_move", "is_last stiffen steepest friction retention release"),
+        BRC_PASS(&f->measure, "soft_measure", "book release"),
+        BRC_PASS(&f->book, "soft_book", "step"),
+        BRC_PASS(&f->check, "soft_check", "share steepest screen shears slope shear_least"),
+        BRC_PASS(&f->begin, "soft_begin", "friction"),
+        BRC_PASS(&f->count, "soft_count", NULL),
+        BRC_PASS(&f->energy, "soft_energy", NULL),
+        BRC_PASS(&f->settle, "soft_settle", "step list")};
+    return BRC_PASSES_MAKE(s, &faces, wanted);
+}
+
+static double norm3(const double *x)
+{
+    return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+}
+
+/* Bonds that break at once take what their strength and length hold. */
+static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
+{
+    const brc_domain *d = s->domain;
+    double sum = 0;
+    int64_t n = 0;
+    for (int64_t b = 0; b < d->n_bonds; ++b) {
+        if (strengths->energy[b] > 0 || !(strengths->tension[b] > 0)) continue;
+        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
+        double branch[3];
+        for (int c = 0; c < 3; ++c)
+            branch[c] = d->position[3 * j + c] - d->position[3 * i + c];
+        sum += strengths->tension[b] * strengths->tension[b] * norm3(branch) /
+               (s->elastic[s->material_of_element[i]].young + s->elastic[s->material_of_element[j]].young);
+        ++n;
+    }
+    if (n == 0) return;
+    s->fracture->implied_energy = sum / (double)n;
+    brc_log(s->context, BRC_LOG_INFO,
+            "fracture: bonds break at once; strength and cells imply a fracture energy of about sigma_f^2 L / (2 E) = "
+            "%.3g J/m^2, which changes with the cells "
+            "(`fracture_energy` of a strength gives one that does not)",
+            s->fracture->implied_energy);
+}
+
+/* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those
+ * snap open; tells where loads at notches want more cells. */
+static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths)
+{
+    brc_crack_lengths l;
+    BRC_TRY(brc_crack_lengths_find(s, strengths, least_cells, &l));
+    if (2 * l.n_below[0] > l.n ||
+        100 * l.n_below[2] > l.n) /* strengths scatter: half of the bonds lie on either side */
+        brc_log(s->context, BRC_LOG_WARNING,
+                "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds (%.2g at least), below "
+                "1 at %lld, which open at once: a crack "
+                "costs about G_c per area only above; use cells of %.3g mm (they are of %.3g mm; notched parts: %.3g "
+                "mm) or a lower strength",
+                least_cells, (long long)l.n_below[0], (long long)l.n, l.ratio[0], (long long)l.n_below[2],
+                1e3 * brc_crack_lengths_size(&l, least_cells), 1e3 * l.size,
+                1e3 * brc_crack_lengths_size(&l, 2 * least_cells));
+    else if (2 * l.n_below[1] > l.n)
+        brc_log(s->context, BRC_LOG_INFO,
+                "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds: a crack costs G_c per "
+                "area, but a part with a notch, of cells that are not regular, "
+                "bears some 6 to 17 %% too much; use cells of %.3g mm where that matters (they are of %.3g mm)",
+                2 * least_cells, (long long)l.n_below[1], (long long)l.n,
+                1e3 * brc_crack_lengths_size(&l, 2 * least_cells), 1e3 * l.size);
+    brc_crack_lengths_free(&l);
+    brc_crack_range_tell(s, "cells");
+    return BRC_OK;
+}
+
+static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    double *crack = NULL, *shear = NULL;
+    int32_t *lead = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lead, n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &shear, layout->n_rows, "shear moduli"));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        if (h < 0) continue;
+        double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
+        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+        own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
+        lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
+    }
+    for (int32_t r = 0; r < layout->n_rows; ++r)
+        if (layout->element_of_row[r] >= 0) shear[r] = s->elastic[s->material_of_element[layout->element_of_row[r]]].mu;
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
+    BRC_TRY_OR(cleanup, brc_upload_int(f->lead, lead, n_entries));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear, shear, layout->n_rows));
+cleanup:
+    brc_memory_free(crack);
+    brc_memory_free(lead);
+    brc_memory_free(shear);
+    return status;
+}
+
+/* Limits and energies of faces that slide. */
+static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    const double whole = 2 * s->scene->fracture.cohesion * cos(s->scene->fracture.friction);
+    const double reach = 2 * (1 + sin(s->scene->fracture.friction)); /* 2 cos |tau| + 2 sin sigma_n, and Mohr-Coulomb's
+                                                                        sum, are at most this times the norm */
+    double *limit = NULL, *energy = NULL;
+    brc_status status = BRC_OK;
+    if (!f->shear_limit) return BRC_OK;
+    f->shear_least = INFINITY;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of shear"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &energy, n_entries, "fracture energies in shear"));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        if (h < 0) continue;
+        f->shear_least = fmin(f->shear_least, whole * strengths->factor[d->bond[h]] / reach);
+        limit[k] = (strengths->joint[d->bond[h]] ? -whole : whole) * strengths->factor[d->bond[h]];
+        energy[k] = strengths->shear_energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+    }
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_limit, limit, n_entries));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_energy, energy, n_entries));
+cleanup:
+    brc_memory_free(limit);
+    brc_memory_free(energy);
+    return status;
+}
+
+brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
+{
+    if (!s->fracture->cells->by_element) tell_implied(s, strengths);
+    if (!strengths->softens) return BRC_OK;
+    if (!s->model->breaking->cohesion || s->fracture->cells->by_element)
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "
+            "those, or remove it from the strengths and interfaces");
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
+    BRC_TRY(make_passes(s, s->fracture->cells->softening));
+    BRC_TRY(warn_of_size(s, strengths));
+    BRC_TRY(brc_fields_create(s->device, &brc_softening_fields, &s->wants, s->fracture->cells->softening));
+    BRC_TRY(brc_fields_create(s->device, &brc_open_list_fields, &s->wants, &s->fracture->cells->softening->around));
+    BRC_TRY(upload_shear(s, s->fracture->cells->softening, strengths));
+    return upload_faces(s, s->fracture->cells->softening, strengths);
+}
+
+void brc_softening_free(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    if (!f) return;
+    brc_fields_free(&brc_softening_fields, f);
+    brc_fields_free(&brc_open_list_fields, &f->around);
+    brc_memory_free(f);
+    s->fracture->cells->softening = NULL;
+}
+
+/* ---- an evaluation ---- */
+
+brc_status brc_softening_gradient(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    softening_faces *f = faces_of(s);
+    const bool whole = brc_pass_is_whole(s, list, ring);
+    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
+    if (!f || !f->any) return BRC_OK;
+    return BRC_RUN(f->gradient, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])});
+}
+
+brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int ring)
+{
+    softening_faces *f = faces_of(s);
+    const bool whole = brc_pass_is_whole(s, list, ring);
+    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
+    if (!f || !f->any) return BRC_OK;
+    return BRC_RUN(f->flux, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])});
+}
+
+brc_status brc_softening_force(brc_simulation *s, brc_buffer *force)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f || !f->any) return BRC_OK;
+    return BRC_RUN(f->take_force, n, {"force", BRC_BUF(force)});
+}
+
+brc_status brc_softening_energy(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f || !f->any) return BRC_OK;
+    return brc_pass_run(f->energy, n);
+}
+
+/* ---- a step ---- */
+
+static double release_of(const brc_simulation *s)
+{
+    return s->scene->fracture.closure ? clear : 0;
+}
+/* Faces that slide rub in scenes without contact too. */
+static double friction_of(const brc_simulation *s)
+{
+    if (s->contact) return s->scene->contact.law.friction;
+    return faces_of(s)->shear_limit ? brc_scene_side_friction(s->scene) : 0;
+}
+
+static brc_status sweep(brc_simulation *s, int k)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    return BRC_RUN(f->move, n, {"is_last", BRC_INT(k == N_SWEEPS - 1)}, {"stiffen", BRC_COEFF(stiffen)},
+                   {"steepest", BRC_COEFF(steepest)}, {"friction", BRC_COEFF(friction_of(s))},
+                   {"retention", BRC_COEFF(retention)}, {"release", BRC_COEFF(release_of(s))});
+}
+
+/* Cells with open faces, whose fluxes are wanted, and around them those whose stresses, and those whose gradients go
+ * into them; what touches one of them presses on it as its own gradient says. */
+static brc_status list_around(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    brc_rings *rings = s->fracture->cells->rings;
+    if (f->is_listed && f->lists == brc_contact_lists(s)) return BRC_OK;
+    BRC_TRY(brc_rings_seed(s, rings, f->n_open));
+    BRC_TRY(brc_contact_list_around(s, rings->touched));
+    BRC_TRY(brc_rings_spread(s, rings, 1, 2));
+    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    f->is_listed = true;
+    f->lists = brc_contact_lists(s);
+    return brc_rings_close(s, rings, BRC_RINGS_DROP, &f->around);
+}
+
+brc_status brc_softening_move(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    if (!f || !f->any) return BRC_OK;
+    const bool whole = brc_contact_is_due(s);
+    if (!whole) BRC_TRY(list_around(s));
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(brc_pass_run(f->coast, n));
+    for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
+        BRC_TRY(brc_dlsm_fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
+        BRC_TRY(sweep(s, k));
+    }
+    return BRC_OK;
+}
+
+static brc_status measure(brc_simulation *s, int book)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    return BRC_RUN(f->measure, n, {"book", BRC_INT(book)}, {"release", BRC_COEFF(release_of(s))});
+}
+
+brc_status brc_softening_recount(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    if (!f) return BRC_OK;
+    f->is_listed = false;
+    return brc_pass_run(f->count, n);
+}
+
+brc_status brc_softening_refresh(brc_simulation *s)
+{
+    return brc_softening_is_on(s) ? measure(s, 0) : BRC_OK;
+}
+
+brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
+{
+    softening_faces *f = faces_of(s);
+    brc_cell_breaks *c = s->fracture->cells;
+    const int32_t n = s->layout->n_rows;
+    double wished, brittle = 0;
+    *n_ended = 0;
+    if (f->any) { /* what opened before this step */
+        BRC_TRY(measure(s, 1));
+        BRC_TRY(brc_vector_sum(s, c->found, n, n_ended));
+        BRC_TRY(BRC_RUN(f->book, n, {"step", BRC_INT((int32_t)brc_fracture_moment(s))}));
+    }
+    BRC_TRY(BRC_RUN(f->check, n, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
+                    {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
+                    {"slope", BRC_COEFF(sin(s->scene->fracture.friction))},
+                    {"shear_least", BRC_COEFF(f->shear_least)}));
+    BRC_TRY(brc_vector_sum(s, c->found, n, &wished));
+    if (wished > 0) {
+        f->any = true;
+        BRC_TRY(BRC_RUN(f->begin, n, {"friction", BRC_COEFF(friction_of(s))}));
+        BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));
+        BRC_TRY(brc_softening_recount(s));
+    }
+    *n_ended += brittle;
+    return BRC_OK;
+}
+
+brc_status brc_softening_settle(brc_simulation *s, const brc_ring_list *around)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = around->n[0];
+    if (!f) return BRC_OK;
+    return BRC_RUN(f->settle, n, {"step", BRC_INT(brc_fracture_moment(s))}, {"list", BRC_BUF(around->upto[0])});
+}
+
+brc_status brc_softening_begin_stage(brc_simulation *s)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    brc_softening_report report = {0};
+    if ((!faces_of(s) && !brc_beam_softening_is_on(s)) || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
+    BRC_TRY(brc_simulation_softening(s, &report));
+    if (report.n_opened > 0)
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
+            "stages only; use a dynamic stage with mass damping",
+            stage->name);
+    return BRC_OK;
+}
+
+/* Broken faces whose sides still bear on each other are broken bonds that have a neighbour (stored_breaks.c points all
+ * broken ones home). */
+static brc_status rejoin(brc_simulation *s, softening_faces *f)
+{
+    const brc_layout *layout = s->layout;
+    const int64_t n = layout->n_slots * layout->slice;
+    int32_t *neighbour = NULL, *open = NULL;
+    double *alive = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n, "open faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
+    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n));
+    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive,
+                                     brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
+    for (int64_t k = 0; k < n; ++k)
+        if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0)
+            neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
+    BRC_TRY_OR(cleanup, brc_buffer_write(s->neighbour, 0, neighbour, 4 * n));
+cleanup:
+    brc_memory_free(neighbour);
+    brc_memory_free(open);
+    brc_memory_free(alive);
+    return status;
+}
+
+brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
+{
+    softening_faces *f = faces_of(s);
+    if (!f) return BRC_OK;
+    f->is_listed = false;
+    const brc_state_entry changed[] = {
+        {"softening.limit", s->fracture->cells->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
+        {"softening.least", s->fracture->cells->least, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
+    };
+    BRC_TRY(brc_store_flag(store, "softening.any", &f->any));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_softening_fields, .owner = f}));
+    BRC_TRY(brc_store_entries(s, store, sizeof changed / sizeof *changed, changed));
+    return store->loading ? rejoin(s, f) : BRC_OK;
+}
+
+brc_status brc_softening_friction(brc_simulation *s, double *out)
+{
+    const softening_faces *f = faces_of(s);
+    *out = 0;
+    return f && f->any ? brc_vector_sum(s, f->rubbed, s->layout->n_rows, out) : BRC_OK;
+}
+
+/* ---- what came of it ---- */
+
+brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
+{
+    softening_faces *f = faces_of(s);
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    double *crack = NULL, *alive = NULL;
+    int32_t *open = NULL;
+    brc_status status = BRC_OK;
+    if (brc_beam_softening_is_on(s)) return brc_beam_softening_report(s, out);
+    *out = (brc_softening_report){0};
+    if (!f || !f->any) return BRC_OK;
+    const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n_entries, "unbroken bonds"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open faces"));
+    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    BRC_TRY_OR(cleanup, brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
+    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive, bytes, alive, n_entries));
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
+        if (h < 0 || !(own[START * layout->slice] > 0) || d->neighbour[d->twin[h]] > d->neighbour[h]) continue;
+        const double spent = own[SPENT * layout->slice], tilt = own[TILT * layout->slice];
+        out->n_opened += 1;
+        out->spent += spent;
+        if (alive[k] > 0 && open[k] != APART) {
+            out->unfinished += spent;
+            continue;
+        }
+        out->n_ended += 1;
+        out->area += tilt * own[COSINE * layout->slice] * norm3(d->area_vector + 3 * (int64_t)h);
+    }
+cleanup:
+    brc_memory_free(crack);
+    brc_memory_free(alive);
+    brc_memory_free(open);
+    return status;
+}

@@ -1,0 +1,161 @@
+#include "ahead.h"
+#include "../effects/fracture/cell_breaks_internal.h"
+#include "../models/dlsm/cell_softening.h"
+#include "../models/dlsm/closed_faces.h"
+#include "../effects/guard.h"
+#include <string.h>
+
+enum { MOST_KEPT = 64 };
+
+struct brc_ahead {
+    brc_state_store store;
+    brc_simulation *simulation; /* borrowed */
+    brc_buffer *found;          /* [n_rows] marks of the stretch so far */
+    int n;                      /* arrays */
+    brc_buffer *of[MOST_KEPT], *copy[MOST_KEPT];
+    char *numbers; /* of the host, one after another, each list behind its number of rows */
+    int64_t used, at;
+    int64_t calm;  /* steps since the last break */
+    bool on, open; /* a stretch is being taken; the simulation's `open` at its start */
+};
+
+/* ---- what is kept: the store of checkpoints (state_store.h), in memory ---- */
+
+static struct brc_ahead *ahead_of(brc_state_store *store)
+{
+    return store->self;
+}
+
+static brc_status keep_numbers(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows,
+                               int32_t columns, void *data)
+{
+    struct brc_ahead *a = ahead_of(store);
+    const int64_t bytes = rows * columns * brc_stored_type_bytes(type), whole = bytes + (int64_t)sizeof rows;
+    if (store->loading) {
+        if (bytes > 0) memcpy(data, a->numbers + a->at + sizeof rows, (size_t)bytes);
+        a->at += whole;
+        return BRC_OK;
+    }
+    BRC_TRY(brc_memory_resize(a->simulation->context, (void **)&a->numbers, a->used + whole, 1, name));
+    memcpy(a->numbers + a->used, &rows, sizeof rows);
+    if (bytes > 0) memcpy(a->numbers + a->used + sizeof rows, data, (size_t)bytes);
+    a->used += whole;
+    return BRC_OK;
+}
+
+static brc_status count_rows(brc_state_store *store, const char *name, int64_t *rows)
+{
+    (void)name;
+    memcpy(rows, ahead_of(store)->numbers + ahead_of(store)->at, sizeof *rows);
+    return BRC_OK;
+}
+
+static brc_status keep_field(brc_state_store *store, brc_buffer *buffer)
+{
+    struct brc_ahead *a = ahead_of(store);
+    int k = 0;
+    while (k < a->n && a->of[k] != buffer)
+        ++k;
+    if (store->loading) return brc_buffer_copy(buffer, a->copy[k], brc_buffer_bytes(buffer));
+    if (k == MOST_KEPT)
+        return BRC_FAIL(a->simulation->context, BRC_INTERNAL, "more than %d arrays are kept for steps ahead",
+                        (int)MOST_KEPT);
+    if (k == a->n) {
+        BRC_TRY(
+            brc_buffer_create(a->simulation->device, &a->copy[k], brc_buffer_bytes(buffer), "copies for steps ahead"));
+        a->of[a->n++] = buffer;
+    }
+    return brc_buffer_copy(a->copy[k], buffer, brc_buffer_bytes(buffer));
+}
+
+static brc_status walk(brc_simulation *s, bool loading)
+{
+    struct brc_ahead *a = s->ahead;
+    a->store = (brc_state_store){
+        .self = a, .loading = loading, .numbers = keep_numbers, .count = count_rows, .field = keep_field};
+    if (!loading) a->used = 0;
+    a->at = 0;
+    BRC_TRY(brc_simulation_walk_motion(s, &a->store));
+    BRC_TRY(brc_closed_faces_store_state(s, &a->store, NULL));
+    return brc_guard_store_looks(s, &a->store);
+}
+
+/* ---- stretches ---- */
+
+/* The cpu and OpenMP target do what they are told at once: there is nobody to wait for. */
+static bool works_beside(const brc_simulation *s)
+{
+    return brc_device_get_info(s->device)->kind == BRC_DEVICE_OPENCL;
+}
+
+/* Contact looks for its pairs from the host, softening and noise damping ask in every step. */
+static bool may(const brc_simulation *s)
+{
+    return s->fracture && s->fracture->cells && !s->contact && !s->strikers && !brc_softening_is_on(s) &&
+           brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise && works_beside(s);
+}
+
+int64_t brc_ahead_steps(const brc_simulation *s, int64_t n)
+{
+    const int64_t calm = s->ahead ? s->ahead->calm : 0, most = calm < BRC_AHEAD_MOST ? calm : BRC_AHEAD_MOST;
+    if (most < BRC_AHEAD_FEWEST || n < 2 || !may(s)) return 0;
+    return n < most ? n : most;
+}
+
+brc_status brc_ahead_begin(brc_simulation *s)
+{
+    struct brc_ahead *a = s->ahead;
+    if (!a->found) BRC_TRY(brc_new_state(s, &a->found, s->layout->n_rows, "marks of steps ahead"));
+    BRC_TRY(brc_buffer_fill_zero(a->found));
+    BRC_TRY(walk(s, false));
+    a->open = s->open;
+    a->on = true;
+    return BRC_OK;
+}
+
+brc_status brc_ahead_end(brc_simulation *s, bool *stands)
+{
+    struct brc_ahead *a = s->ahead;
+    const brc_cell_breaks *c = s->fracture->cells;
+    const int64_t first = s->step;
+    double n;
+    a->on = false;
+    BRC_TRY(brc_vector_sum(s, a->found, s->layout->n_rows, &n));
+    *stands = !(n > 0);
+    if (*stands) return BRC_OK;
+    BRC_TRY(walk(s, true));
+    s->open = a->open;
+    a->calm = 0;
+    BRC_TRY(brc_buffer_fill_zero(c->mark));
+    BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
+    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: bonds break in them",
+            (long long)s->step + 1, (long long)first);
+    return BRC_OK;
+}
+
+brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, double *n)
+{
+    if (!s->ahead) {
+        BRC_TRY(BRC_ALLOCATE(s->context, &s->ahead, 1, "steps ahead"));
+        s->ahead->simulation = s;
+    }
+    struct brc_ahead *a = s->ahead;
+    a->calm += 1;
+    *n = 0;
+    if (a->on) return brc_vector_axpy(s, count, 1, found, a->found);
+    BRC_TRY(brc_vector_sum(s, found, count, n));
+    if (*n > 0) a->calm = 0;
+    return BRC_OK;
+}
+
+void brc_ahead_free(brc_simulation *s)
+{
+    struct brc_ahead *a = s->ahead;
+    if (!a) return;
+    for (int k = 0; k < a->n; ++k)
+        brc_buffer_free(&a->copy[k]);
+    brc_buffer_free(&a->found);
+    brc_memory_free(a->numbers);
+    brc_memory_free(a);
+    s->ahead = NULL;
+}

@@ -1,0 +1,334 @@
+/* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
+#include "ahead.h"
+#include "../models/cbm/beam_closure.h"
+#include "../models/cbm/beam_softening.h"
+#include "../models/dlsm/cell_softening.h"
+#include "../effects/contact/contact.h"
+#include "../effects/loads/element_loads.h"
+#include "../effects/fracture/fracture_internal.h"
+#include "../effects/guard.h"
+#include "look.h"
+#include "../effects/noise_damping.h"
+#include "stage_end.h"
+#include "../effects/strikers/strikers_internal.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { SAMPLES = 500, BATCH = 256 };
+/* Samples this far apart or further have a ledger each, a hundredth of the steps between them; nearer ones only where
+ * something is judged by it. */
+enum { LEDGER_APART = 128 };
+
+static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)}));
+    if (s->strikers) BRC_TRY(brc_strikers_advance(s, kick, drift, 0, false));
+    BRC_TRY(brc_contact_turn(s, kick, drift, 0));
+    if (!s->model->turns) return BRC_OK;
+    return BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)},
+                   {"extra", BRC_STATE(0)});
+}
+
+/* Positions and forces at the end of the step whose motion has just been done. */
+static brc_status close_step(brc_simulation *s, double dt)
+{
+    s->step += 1;
+    s->total_steps += 1;
+    s->time = (double)s->step * dt;
+    BRC_TRY(brc_loads_prescribe(s, s->time));
+    if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
+    if (s->contact) brc_phase_within(s, BRC_PHASE_SEARCH);
+    BRC_TRY(brc_contact_follow(s));
+    if (s->fracture) brc_phase_within(s, BRC_PHASE_FRACTURE);
+    BRC_TRY(brc_softening_move(s));
+    BRC_TRY(brc_beam_softening_move(s));
+    BRC_TRY(brc_beam_closure_move(s));
+    brc_phase_within(s, BRC_PHASE_MOTION);
+    BRC_TRY(brc_guard_step(s));
+    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FORCES);
+    BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
+    brc_phase_within(s, before);
+    return BRC_OK;
+}
+
+static brc_status break_bonds(brc_simulation *s, double half_kick)
+{
+    if (!s->fracture) return BRC_OK;
+    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FRACTURE);
+    BRC_TRY(brc_fracture_step(s, half_kick));
+    brc_phase_within(s, before);
+    return BRC_OK;
+}
+
+/* Of what is free to move: prescribed velocities are set anew at the end of the step, and what drags on them is no part
+ * of the work of their load. */
+static brc_status drag(brc_simulation *s, const brc_stage *stage, double dt)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(brc_loads_zero_imposed(s, s->velocity));
+    return BRC_RUN(s->pass.damp_mass, n, {"factor", BRC_STATE(exp(-stage->mass_damping * dt))},
+                   {"lost", BRC_BUF(s->lost_damping)});
+}
+
+static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double dt, double kick)
+{
+    BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
+    if (stage->mass_damping > 0) { /* the drag acts in the middle of the drift: second order */
+        BRC_TRY(kick_and_drift(s, kick, 0.5 * dt));
+        BRC_TRY(drag(s, stage, dt));
+        BRC_TRY(kick_and_drift(s, 0, 0.5 * dt));
+    } else {
+        BRC_TRY(kick_and_drift(s, kick, dt));
+    }
+    BRC_TRY(close_step(s, dt));
+    return break_bonds(s, 0.5 * dt);
+}
+
+static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double dt)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
+    BRC_TRY(BRC_RUN(s->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(stage->phi)},
+                    {"lost", BRC_BUF(s->lost_numerical)}));
+    if (s->strikers) BRC_TRY(brc_strikers_advance(s, dt, dt, (stage->phi - 1) * dt, true));
+    BRC_TRY(brc_contact_turn(s, dt, dt, (stage->phi - 1) * dt * dt));
+    if (s->model->turns) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
+        BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(dt)}, {"drift", BRC_STATE(dt)},
+                        {"extra", BRC_STATE((stage->phi - 1) * dt * dt)}));
+    if (stage->mass_damping > 0) BRC_TRY(drag(s, stage, dt));
+    BRC_TRY(close_step(s, dt));
+    BRC_TRY(BRC_RUN(s->pass.numerical_close, n, {"lost", BRC_BUF(s->lost_numerical)}));
+    return break_bonds(s, 0); /* velocities are at whole steps already */
+}
+
+brc_status brc_dynamics_close(brc_simulation *s)
+{
+    if (!s->open) return BRC_OK;
+    BRC_TRY(kick_and_drift(s, 0.5 * s->time_step.value, 0));
+    BRC_TRY(brc_loads_impose_velocity(s, s->time));
+    s->open = false;
+    return BRC_OK;
+}
+
+static brc_status take_steps(brc_simulation *s, int64_t n_steps, bool close)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const double dt = s->time_step.value;
+    for (int64_t i = 0; i < n_steps; ++i) {
+        if (stage->integrator == BRC_TCHAMWA_WIELGOSZ)
+            BRC_TRY(tchamwa_step(s, stage, dt));
+        else {
+            BRC_TRY(verlet_step(s, stage, dt, s->open ? dt : 0.5 * dt));
+            s->open = true;
+            if ((close && i + 1 == n_steps) || brc_noise_is_due(s)) BRC_TRY(brc_dynamics_close(s));
+        }
+        if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
+    }
+    return BRC_OK;
+}
+
+/* close: velocities are at whole steps when it returns; else a later call goes on from the half step with the same
+ * bits. */
+static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
+{
+    if (n_steps <= 0) return BRC_OK;
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_MOTION);
+    for (int64_t left = n_steps; left > 0;) {
+        const int64_t ahead = brc_ahead_steps(s, left), n = ahead > 0 ? ahead : 1;
+        bool stands = true;
+        if (ahead > 0) BRC_TRY(brc_ahead_begin(s));
+        BRC_TRY(take_steps(s, n, close && n == left));
+        if (ahead > 0) BRC_TRY(brc_ahead_end(s, &stands));
+        if (stands) left -= n;
+    }
+    brc_phase_enter(s, before);
+    return BRC_OK;
+}
+
+brc_status brc_dynamics_advance(brc_simulation *s, int64_t n_steps)
+{
+    return advance(s, n_steps, true);
+}
+
+int64_t brc_simulation_planned_steps(const brc_simulation *s, int32_t stage, double time_step)
+{
+    const brc_stage *plan = s->scene->stages + stage;
+    if (plan->solver == BRC_SOLVER_STATIC) return plan->increments > 0 ? plan->increments : 1;
+    if (plan->solver == BRC_SOLVER_MODES) return 1;
+    if (plan->steps > 0) return plan->steps;
+    return time_step > 0 ? (int64_t)ceil(plan->duration / time_step - 1e-9) : 0;
+}
+
+static int64_t next_multiple(int64_t step, int64_t every)
+{
+    return (step / every + 1) * every;
+}
+
+/* The same steps for every part, with the looks among them; devices that queue work at the same time. A stage that ends
+ * at a look ends there. */
+static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_steps)
+{
+    brc_simulation *s = part[0];
+    for (const int64_t end = s->step + n_steps; s->step < end && !s->note[s->stage].ended;) {
+        const int64_t from = s->step, look = brc_look_next(s), until = look < end ? look : end;
+        for (int32_t k = 0; k < n; ++k)
+            BRC_TRY(advance(part[k], until - from, until == end));
+        if (look <= until) BRC_TRY(brc_look_within(n, part, from));
+    }
+    for (int32_t k = 0; k < n; ++k) {
+        brc_phase_enter(part[k], BRC_PHASE_MOTION);
+        BRC_TRY(brc_dynamics_close(part[k]));
+        BRC_TRY(brc_device_wait(part[k]->device));
+        brc_phase_enter(part[k], BRC_PHASE_NONE);
+    }
+    return BRC_OK;
+}
+
+/* Kinetic and elastic energy of all parts together [J] and their broken bonds, after the guard of each. */
+typedef struct moment {
+    double kinetic, elastic;
+    int64_t broken;
+} moment;
+
+static brc_status guard_all(int32_t n, brc_simulation *const *part, moment *now)
+{
+    *now = (moment){0};
+    for (int32_t k = 0; k < n; ++k) {
+        brc_ledger ledger;
+        int64_t broken;
+        brc_phase_enter(part[k], BRC_PHASE_LEDGER);
+        BRC_TRY(brc_guard_read(part[k], n > 1, &ledger));
+        BRC_TRY(brc_simulation_broken(part[k], &broken));
+        now->kinetic += ledger.kinetic;
+        now->elastic += ledger.elastic;
+        now->broken += broken;
+        brc_phase_enter(part[k], BRC_PHASE_NONE);
+    }
+    if (part[0]->fracture) brc_regime_follow(&part[0]->regime, now->kinetic, now->elastic, now->broken > 0);
+    return BRC_OK;
+}
+
+/* What the looks at the elements found, and what is due of the ledger. */
+static brc_status read_guards(int32_t n, brc_simulation *const *part)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        brc_phase_enter(part[k], BRC_PHASE_LEDGER);
+        BRC_TRY(brc_guard_read(part[k], n > 1, NULL));
+        brc_phase_enter(part[k], BRC_PHASE_NONE);
+    }
+    return BRC_OK;
+}
+
+/* What the scene lets end the stage: too many broken bonds, or calm for 100 steps. */
+static void judge(brc_simulation *s, const moment *now, double n_bonds, int64_t calm_steps)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    char reason[160];
+    if (stage->stop_broken > 0 && (double)now->broken > stage->stop_broken * n_bonds) {
+        snprintf(reason, sizeof reason, "stop_when_broken: %lld of %.0f bonds are broken, more than %.4g %%",
+                 (long long)now->broken, n_bonds, 100 * stage->stop_broken);
+        brc_simulation_end_stage(s, reason);
+    }
+    if (stage->stop_kinetic > 0 && calm_steps >= 100) {
+        snprintf(reason, sizeof reason,
+                 "stop_kinetic: the kinetic energy has been below %.4g of the elastic for %lld steps",
+                 stage->stop_kinetic, (long long)calm_steps);
+        brc_simulation_end_stage(s, reason);
+    }
+}
+
+/* One line on how quick the fracture was, where this stage had some of it. */
+static void tell_regime(const brc_simulation *s, const brc_regime *before)
+{
+    const brc_regime *r = &s->regime;
+    if (!r->broke || (before->broke && before->peak_elastic == r->peak_elastic)) return;
+    brc_log(s->context, BRC_LOG_INFO,
+            "fracture is %s: kinetic energy %.3g %% of elastic at the first break, at most %.3g %% until the peak",
+            brc_regime_name(r), 100 * r->at_first_break, 100 * fmax(r->until_peak, r->at_peak));
+}
+
+/* Steps until the next sample, frame, look of the guard or the end, at most a batch: short batches keep the progress
+ * line and signals alive. Where they end depends on the step alone, since every end costs the velocities a rounding: a
+ * run that goes on from one of them later is the same run. */
+static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_every, int64_t total)
+{
+    const int64_t step = s->step, look = brc_guard_next(s, step);
+    int64_t until = next_multiple(step, every);
+    if (frame_every && next_multiple(step, frame_every) < until) until = next_multiple(step, frame_every);
+    if (look < until) until = look;
+    if (until > total) until = total;
+    const int64_t most = s->patience ? s->patience->batch : BATCH;
+    return until - step < most ? until - step : most;
+}
+
+/* Looks of the guard, samples and frames of this step, if it is one of theirs. */
+static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds, int64_t every, int64_t frame_every,
+                          int64_t total)
+{
+    brc_simulation *s = part[0];
+    const brc_stage *stage = brc_current_stage(s);
+    const bool sampled = s->step % every == 0 || s->step == total || s->note[s->stage].ended,
+               judged = s->fracture || stage->stop_kinetic > 0 || stage->stop_broken > 0;
+    if (sampled && (judged || every >= LEDGER_APART || s->step == total || s->note[s->stage].ended)) {
+        moment now;
+        BRC_TRY(guard_all(n, part, &now));
+        const bool calm = now.kinetic <= stage->stop_kinetic * now.elastic;
+        s->progress.calm_steps = calm ? s->progress.calm_steps + (s->step - s->progress.judged_step) : 0;
+        s->progress.judged_step = s->step;
+        judge(s, &now, n_bonds, s->progress.calm_steps);
+    } else if (sampled || brc_guard_next(s, s->step - 1) == s->step) {
+        BRC_TRY(read_guards(n, part));
+    }
+    if (sampled) BRC_TRY(brc_notify_sample(s));
+    return frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended
+               ? brc_notify_frame(s)
+               : BRC_OK;
+}
+
+brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed)
+{
+    brc_simulation *s = part[0];
+    const brc_stage *stage = brc_current_stage(s);
+    const brc_output *output = &s->scene->output;
+    const int64_t total = brc_simulation_planned_steps(s, s->stage, s->time_step.value), first = s->step;
+    const double dt = s->time_step.value;
+    int64_t every = output->history_every > 0 ? output->history_every : (total + SAMPLES - 1) / SAMPLES;
+    if (every < 1) every = 1;
+    int64_t frame_every = output->n_frames > 0         ? total / output->n_frames
+                          : output->frame_interval > 0 ? (int64_t)llround(output->frame_interval / dt)
+                                                       : 0;
+    if (frame_every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) frame_every = 1;
+    brc_progress *progress = NULL;
+    brc_status status = BRC_OK;
+    double n_bonds = 0;
+    for (int32_t k = 0; k < n; ++k)
+        n_bonds += (double)part[k]->domain->n_bonds;
+    BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total - first, "steps", n_bonds, "bond updates/s"));
+    const brc_regime before = s->regime;
+    for (int32_t k = 0; k < n; ++k)
+        BRC_TRY_OR(cleanup, brc_guard_begin_stage(part[k]));
+    if (!resumed) {
+        moment now;
+        if (s->fracture) BRC_TRY_OR(cleanup, guard_all(n, part, &now));
+        BRC_TRY_OR(cleanup, brc_notify_sample(s));
+    }
+    while (s->step < total && !s->note[s->stage].ended) {
+        BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s, every, frame_every, total)));
+        brc_progress_update(progress, s->step - first);
+        BRC_TRY_OR(cleanup, observe(n, part, n_bonds, every, frame_every, total));
+        BRC_TRY_OR(cleanup, brc_notify_pause(s, s->interrupted            ? BRC_PAUSE_INTERRUPTED
+                                                : s->note[s->stage].ended ? BRC_PAUSE_ENDED
+                                                : s->step < total         ? BRC_PAUSE_GOING
+                                                                          : BRC_PAUSE_DONE));
+        if (s->interrupted) {
+            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld",
+                              stage->name, (long long)s->step, (long long)total);
+            goto cleanup;
+        }
+    }
+    tell_regime(s, &before);
+cleanup:
+    brc_progress_finish(&progress);
+    return status;
+}

@@ -1,0 +1,22 @@
+#include "live_arrays.h"
+#include "../effects/fracture/fracture_internal.h"
+
+int brc_simulation_live_arrays(const brc_simulation *s, brc_live_array out[BRC_LIVE_ARRAYS_MOST])
+{
+    const brc_live_array all[] = {{"displacement", "m", s->displacement, 3},
+                                  {"velocity", "m/s", s->velocity, 3},
+                                  {"force", "N", s->force, 3},
+                                  {"orientation", "-", s->orientation, 4},
+                                  {"spin", "rad/s", s->spin, 3},
+                                  {"broken", "-", s->fracture ? s->fracture->broken : NULL, 1}};
+    int n = 0;
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        if (all[k].buffer) out[n++] = all[k];
+    return n;
+}
+
+int32_t brc_simulation_rows(const brc_simulation *s, const int32_t **element_of_row)
+{
+    *element_of_row = s->layout->element_of_row;
+    return s->layout->n_rows;
+}

@@ -1,0 +1,136 @@
+/* Looks: who wants one, and what is put back after it. */
+#include "look.h"
+#include "../effects/contact/contact_internal.h"
+#include "simulation_internal.h"
+#include "../effects/strikers/strikers_internal.h"
+
+/* Everything that the half kick of a batch's end touches: also where it only turns by nothing, which rounds. */
+enum { MOST_KEPT = 12 };
+
+struct brc_look {
+    int n;
+    brc_buffer *of[MOST_KEPT], *copy[MOST_KEPT];
+};
+
+static int list_touched(const brc_simulation *s, brc_buffer *of[MOST_KEPT])
+{
+    const brc_strikers *t = s->strikers;
+    const brc_contact_state *c = s->contact;
+    brc_buffer *const all[] = {s->velocity,
+                               s->spin,
+                               s->orientation,
+                               t ? t->displacement : NULL,
+                               t ? t->orientation : NULL,
+                               t ? t->momentum : NULL,
+                               t ? t->motion : NULL,
+                               t ? t->pose : NULL,
+                               t ? t->moved : NULL,
+                               c ? c->momentum : NULL,
+                               c ? c->turned : NULL,
+                               c ? c->way : NULL};
+    int n = 0;
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        if (all[k]) of[n++] = all[k];
+    return n;
+}
+
+static brc_status create(brc_simulation *s)
+{
+    if (s->look) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->look, 1, "looks"));
+    const int n = list_touched(s, s->look->of);
+    for (; s->look->n < n; ++s->look->n)
+        BRC_TRY(brc_buffer_create(s->device, &s->look->copy[s->look->n], brc_buffer_bytes(s->look->of[s->look->n]),
+                                  "copies for looks"));
+    return BRC_OK;
+}
+
+void brc_look_free(brc_simulation *s)
+{
+    for (int k = 0; s->look && k < s->look->n; ++k)
+        brc_buffer_free(&s->look->copy[k]);
+    brc_memory_free(s->look);
+    s->look = NULL;
+}
+
+static brc_status keep(brc_simulation *s)
+{
+    BRC_TRY(create(s));
+    for (int k = 0; k < s->look->n; ++k)
+        BRC_TRY(brc_buffer_copy(s->look->copy[k], s->look->of[k], brc_buffer_bytes(s->look->of[k])));
+    return brc_dynamics_close(s);
+}
+
+static brc_status put_back(brc_simulation *s)
+{
+    for (int k = 0; k < s->look->n; ++k)
+        BRC_TRY(brc_buffer_copy(s->look->of[k], s->look->copy[k], brc_buffer_bytes(s->look->of[k])));
+    s->open = true;
+    return BRC_OK;
+}
+
+int64_t brc_look_next(const brc_simulation *s)
+{
+    int64_t next = INT64_MAX;
+    for (int k = 0; k < s->n_observers; ++k) {
+        const brc_observer *o = &s->observers[k];
+        const int64_t wanted = o->next_look ? o->next_look(o->self, s, s->step) : INT64_MAX;
+        if (wanted < next) next = wanted;
+    }
+    return next;
+}
+
+static brc_simulation *part_of(brc_simulation *s, int32_t k)
+{
+    return k == 0 ? s : s->others[k - 1];
+}
+
+/* What an observer reads may be the ledger, whose peaks are those of the run's own samples. */
+static void carry_peaks(brc_simulation *s, double *peaks, bool back)
+{
+    for (int32_t k = 0; k <= s->n_others; ++k) {
+        brc_simulation *p = part_of(s, k);
+        double *const own[2] = {&p->peak_elastic, &p->peak_kinetic};
+        for (int i = 0; i < 2; ++i)
+            *(back ? own[i] : &peaks[2 * k + i]) = *(back ? &peaks[2 * k + i] : own[i]);
+    }
+}
+
+static bool is_wanted(const brc_simulation *s, const brc_observer *o, int64_t previous)
+{
+    return o->next_look && o->next_look(o->self, s, previous) <= s->step;
+}
+
+static brc_status tell(brc_simulation *s, int64_t previous)
+{
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
+    double *peaks = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &peaks, 2 * (s->n_others + 1), "peaks of energy"));
+    carry_peaks(s, peaks, false);
+    for (int k = 0; k < s->n_observers && status == BRC_OK; ++k)
+        if (is_wanted(s, &s->observers[k], previous)) status = s->observers[k].look(s->observers[k].self, s);
+    carry_peaks(s, peaks, true);
+    brc_memory_free(peaks);
+    brc_phase_enter(s, before);
+    return status;
+}
+
+brc_status brc_look_here(brc_simulation *s, int64_t previous)
+{
+    return tell(s, previous);
+}
+
+brc_status brc_look_within(int32_t n, brc_simulation *const *part, int64_t previous)
+{
+    brc_simulation *s = part[0];
+    const bool open = s->open;
+    for (int32_t k = 0; open && k < n; ++k)
+        BRC_TRY(keep(part[k]));
+    for (int32_t k = 0; k < n; ++k)
+        BRC_TRY(brc_device_wait(part[k]->device));
+    BRC_TRY(tell(s, previous));
+    for (int32_t k = 0; open && !s->note[s->stage].ended && k < n; ++k)
+        BRC_TRY(put_back(part[k]));
+    return BRC_OK;
+}

@@ -1,0 +1,267 @@
+/* Making and freeing a simulation, entering stages, running them, and the observers. */
+#include "ahead.h"
+#include "../effects/fracture/cell_breaks.h"
+#include "../models/dlsm/closed_faces.h"
+#include "../effects/contact/contact.h"
+#include "../effects/fracture/fracture_internal.h"
+#include "split.h"
+#include "../effects/guard.h"
+#include "look.h"
+#include "../effects/noise_damping.h"
+#include "../effects/strikers/strikers_internal.h"
+#include <math.h>
+#include <string.h>
+
+/* Material of an element: its body's, or that of the last region it lies in. */
+static int32_t material_index(const brc_scene *scene, const brc_domain *domain, int64_t e)
+{
+    const int32_t b = domain->body[e] < scene->n_bodies ? domain->body[e] : 0;
+    return brc_body_material(&scene->bodies[b], domain->region[e]);
+}
+
+bool brc_simulation_needs_many_materials(const brc_scene *scene, const brc_domain *domain)
+{
+    for (int64_t e = 1; e < domain->n_elements; ++e)
+        if (material_index(scene, domain, e) != material_index(scene, domain, 0)) return true;
+    return false;
+}
+
+static brc_status find_materials(brc_simulation *s)
+{
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->elastic, s->scene->n_materials, "materials"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->material_of_element, s->domain->n_elements, "materials of elements"));
+    for (int32_t m = 0; m < s->scene->n_materials; ++m)
+        s->elastic[m] = brc_elastic_of(s->scene->materials + m);
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        s->material_of_element[e] = material_index(s->scene, s->domain, e);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice,
+                                 brc_layout **out)
+{
+    BRC_TRY(brc_layout_create(context, domain, slice, out));
+    if (scene->has_contact) brc_layout_all_boundary(*out); /* any element may come to be pushed */
+    return BRC_OK;
+}
+
+int64_t brc_simulation_planned_bytes(const brc_simulation *s)
+{
+    return brc_fields_planned(&s->wants, BRC_LIFE_RUN) + brc_fields_planned(&s->wants, BRC_LIFE_SEARCH);
+}
+
+brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                 brc_device *device, brc_simulation **out)
+{
+    *out = NULL;
+    const double start = brc_clock_s();
+    brc_simulation *s = NULL;
+    brc_status status = BRC_OK;
+    if (domain->n_elements < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has no elements");
+    if (domain->element_kind == BRC_ELEMENT_SPHERE &&
+        brc_bond_model_of(scene->model.kind)->element != BRC_ELEMENT_SPHERE)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "model %s needs cells, the bodies are spheres joined by beams; remove `beams` from the bodies, "
+                        "or use model: cbm",
+                        brc_model_name(scene->model.kind));
+    for (int32_t b = 0; b < scene->n_bodies; ++b)
+        if (scene->bodies[b].has_model && !brc_split_same_model(&scene->bodies[b].model, &scene->model))
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "body '%s' has a model of its own, which one simulation of the whole scene cannot move; "
+                            "split the scene (split.h)",
+                            scene->bodies[b].name);
+    if (scene->n_interfaces > 0 && !scene->has_fracture)
+        brc_log(
+            context, BRC_LOG_WARNING,
+            "interfaces say how bonds break, and the scene has no `fracture`: they decide nothing; add `fracture: {}`");
+    BRC_TRY(BRC_ALLOCATE(context, &s, 1, "simulation"));
+    s->context = context;
+    s->scene = scene;
+    s->model = brc_bond_model_of(scene->model.kind);
+    s->domain = domain;
+    s->device = device;
+    s->stage = -1;
+    if (brc_simulation_needs_many_materials(scene, domain) != brc_device_has_many_materials(device)) {
+        status = BRC_FAIL(context, BRC_INTERNAL, "the device was opened for %s material, the scene has %s",
+                          brc_device_has_many_materials(device) ? "several" : "one",
+                          brc_device_has_many_materials(device) ? "one" : "several");
+        goto cleanup;
+    }
+    BRC_TRY_OR(cleanup, brc_simulation_layout(context, scene, domain, brc_device_slice(device), &s->layout));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->note, scene->n_stages, "stages"));
+    BRC_TRY_OR(cleanup, find_materials(s));
+    brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
+    s->n_groups = s->wants.n_groups;
+    if (s->model->create) BRC_TRY_OR(cleanup, s->model->create(s));
+    BRC_TRY_OR(cleanup, brc_run_passes_make(s));
+    BRC_TRY_OR(cleanup, brc_geometry_create(s));
+    BRC_TRY_OR(cleanup, brc_simulation_fields_create(s));
+    if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
+    BRC_TRY_OR(cleanup, brc_strikers_create(s));
+    BRC_TRY_OR(cleanup, brc_contact_create(s));
+    BRC_TRY_OR(cleanup, brc_noise_create(s));
+    brc_effects_list(s);
+    s->setup_seconds = brc_clock_s() - start;
+    *out = s;
+    return BRC_OK;
+cleanup:
+    brc_simulation_free(&s);
+    return status;
+}
+
+void brc_simulation_free(brc_simulation **simulation)
+{
+    if (!simulation || !*simulation) return;
+    brc_simulation *s = *simulation;
+    brc_simulation_fields_free(s);
+    brc_loads_free(&s->loads);
+    brc_contact_free(s);
+    brc_fracture_free(s);
+    brc_strikers_free(s);
+    brc_look_free(s);
+    brc_ahead_free(s);
+    brc_guard_free(s);
+    brc_noise_free(s);
+    brc_geometry_free(s);
+    brc_passes_free(&s->passes);
+    brc_layout_free(&s->layout);
+    brc_memory_free(s->elastic);
+    brc_memory_free(s->beam);
+    brc_memory_free(s->material_of_element);
+    brc_memory_free(s->modes);
+    brc_memory_free(s->note);
+    brc_memory_free(s);
+    *simulation = NULL;
+}
+
+brc_status brc_simulation_observe(brc_simulation *s, const brc_observer *observer)
+{
+    if (s->n_observers == BRC_MOST_OBSERVERS)
+        return BRC_FAIL(s->context, BRC_INTERNAL, "more than %d observers", BRC_MOST_OBSERVERS);
+    s->observers[s->n_observers++] = *observer;
+    return BRC_OK;
+}
+
+brc_status brc_notify_sample(brc_simulation *s)
+{
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
+    for (int i = 0; i < s->n_observers; ++i)
+        if (s->observers[i].sample) BRC_TRY(s->observers[i].sample(s->observers[i].self, s));
+    brc_phase_enter(s, before);
+    return BRC_OK;
+}
+
+brc_status brc_notify_frame(brc_simulation *s)
+{
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
+    for (int i = 0; i < s->n_observers; ++i)
+        if (s->observers[i].frame) BRC_TRY(s->observers[i].frame(s->observers[i].self, s));
+    brc_phase_enter(s, before);
+    return BRC_OK;
+}
+
+brc_status brc_notify_pause(brc_simulation *s, brc_pause why)
+{
+    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
+    for (int i = 0; i < s->n_observers; ++i)
+        if (s->observers[i].pause) BRC_TRY(s->observers[i].pause(s->observers[i].self, s, why));
+    brc_phase_enter(s, before);
+    return BRC_OK;
+}
+
+/* Bank what the loads of the stage that ends did; its lists go. */
+static brc_status leave_stage(brc_simulation *s)
+{
+    if (s->stage < 0) return BRC_OK;
+    double work;
+    BRC_TRY(brc_loads_work(s, &work));
+    s->work_before += work;
+    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC) s->total_time_before += s->time;
+    brc_loads_free(&s->loads);
+    return BRC_OK;
+}
+
+brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
+{
+    if (stage < 0 || stage >= s->scene->n_stages)
+        return BRC_FAIL(s->context, BRC_INTERNAL, "stage %d of %d", (int)stage, (int)s->scene->n_stages);
+    const double start = brc_clock_s();
+    const brc_stage *next = s->scene->stages + stage;
+    brc_ledger before = {0};
+    if (s->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
+    s->total_before_stage = before.total;
+    BRC_TRY(leave_stage(s));
+    s->left_off = false;
+    s->stage = -1; /* lists of the next stage are not there yet */
+    BRC_TRY(brc_initial_apply(s, next));
+    BRC_TRY(brc_loads_create(s, next, &s->loads));
+    s->stage = stage;
+    s->step = 0;
+    s->time = s->load_factor = 0;
+    s->progress = (brc_stage_progress){0};
+    if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
+    brc_noise_begin_stage(s);
+    s->setup_seconds += brc_clock_s() - start;
+    return BRC_OK;
+}
+
+brc_status brc_stage_start(brc_simulation *s)
+{
+    const double start = brc_clock_s();
+    brc_ledger after;
+    if (s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
+    BRC_TRY(brc_loads_prescribe(s, 0));
+    if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
+    BRC_TRY(brc_force_refresh(s)); /* the search for the time step has evaluated other motions */
+    BRC_TRY(brc_contact_restart(s));
+    brc_closed_faces_restart(s);
+    BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
+    BRC_TRY(brc_simulation_ledger(s, &after));
+    BRC_TRY(brc_contact_wakes(s, &after));
+    s->initial_energy +=
+        after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */
+    s->setup_seconds += brc_clock_s() - start;
+    return BRC_OK;
+}
+
+brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
+{
+    BRC_TRY(brc_stage_enter(s, stage));
+    return brc_stage_start(s);
+}
+
+void brc_simulation_interrupt(brc_simulation *s)
+{
+    s->interrupted = 1;
+    for (int32_t k = 0; k < s->n_others; ++k)
+        s->others[k]->interrupted = 1;
+}
+
+void brc_simulation_set_patience(brc_simulation *s, const brc_patience *patience)
+{
+    s->patience = patience;
+}
+
+bool brc_simulation_left_off(const brc_simulation *s)
+{
+    return s->left_off;
+}
+
+bool brc_leaves_off(brc_simulation *s)
+{
+    s->left_off |= s->patience && s->patience->over(s->patience->self);
+    return s->left_off;
+}
+
+brc_status brc_simulation_advance(brc_simulation *s, int64_t n_steps)
+{
+    const double start = brc_clock_s();
+    const brc_status status = brc_dynamics_advance(s, n_steps);
+    s->step_seconds += brc_clock_s() - start;
+    return status;
+}
+
+brc_status brc_simulation_wait(brc_simulation *s)
+{
+    return brc_device_wait(s->device);
+}

@@ -1,0 +1,243 @@
+/* Reading and writing the state from outside, in the order of element ids. */
+#include "../models/dlsm/closed_faces.h"
+#include "../effects/contact/contact.h"
+#include "simulation_internal.h"
+#include <math.h>
+#include <string.h>
+
+const brc_scene *brc_simulation_scene(const brc_simulation *s)
+{
+    return s->scene;
+}
+const brc_domain *brc_simulation_domain(const brc_simulation *s)
+{
+    return s->domain;
+}
+const brc_device *brc_simulation_device(const brc_simulation *s)
+{
+    return s->device;
+}
+int32_t brc_simulation_stage(const brc_simulation *s)
+{
+    return s->stage;
+}
+int64_t brc_simulation_step(const brc_simulation *s)
+{
+    return s->step;
+}
+int64_t brc_simulation_total_steps(const brc_simulation *s)
+{
+    return s->total_steps;
+}
+double brc_simulation_setup_seconds(const brc_simulation *s)
+{
+    return s->setup_seconds;
+}
+double brc_simulation_step_seconds(const brc_simulation *s)
+{
+    return s->step_seconds;
+}
+double brc_simulation_phase_seconds(const brc_simulation *s, brc_step_phase phase)
+{
+    return phase == BRC_PHASE_NONE ? 0 : s->watch.seconds[phase];
+}
+brc_time_step brc_simulation_time_step(const brc_simulation *s)
+{
+    return s->time_step;
+}
+brc_static_report brc_simulation_static_report(const brc_simulation *s)
+{
+    return s->static_report;
+}
+const char *const *brc_simulation_effects_in(const brc_simulation *s)
+{
+    return s->effects_in;
+}
+const char *const *brc_simulation_effects_out(const brc_simulation *s)
+{
+    return s->effects_out;
+}
+
+double brc_simulation_time(const brc_simulation *s)
+{
+    return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC ? s->load_factor : s->time;
+}
+
+double brc_simulation_total_time(const brc_simulation *s)
+{
+    return s->total_time_before + s->time;
+}
+
+const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
+{
+    *n = s->n_modes;
+    return s->modes;
+}
+
+brc_status brc_simulation_displacement(brc_simulation *s, double *out)
+{
+    return brc_state_from_rows(s, s->displacement, out, 3);
+}
+brc_status brc_simulation_velocity(brc_simulation *s, double *out)
+{
+    return brc_state_from_rows(s, s->velocity, out, 3);
+}
+brc_status brc_simulation_force(brc_simulation *s, double *out)
+{
+    return brc_state_from_rows(s, s->force, out, 3);
+}
+
+brc_status brc_simulation_set_state(brc_simulation *s, const double *displacement, const double *velocity)
+{
+    if (displacement) BRC_TRY(brc_state_to_rows(s, s->displacement, displacement, 3, 0));
+    if (velocity) BRC_TRY(brc_state_to_rows(s, s->velocity, velocity, 3, 0));
+    BRC_TRY(brc_force_refresh(s));
+    BRC_TRY(brc_contact_restart(s));
+    brc_closed_faces_restart(s);
+    return brc_force_of_state(s, BRC_BOOK_START);
+}
+
+brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, double *spin)
+{
+    if (!s->model->turns)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "model dlsm has no orientations of its own; ask for strains instead");
+    BRC_TRY(brc_state_from_rows(s, s->orientation, orientation, 4));
+    return spin ? brc_state_from_rows(s, s->spin, spin, 3) : BRC_OK;
+}
+
+brc_status brc_simulation_virial_stress(brc_simulation *s, int level, double *stress)
+{
+    if (!s->model->virial_stress || level < 0 || level > 2)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "virial stress of level %d in model %s: expected level 0, 1 or 2 and model cbm", level,
+                        brc_model_name(s->scene->model.kind));
+    return s->model->virial_stress(s, level, stress);
+}
+
+brc_status brc_simulation_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
+{
+    return s->model->strain_stress(s, strain, stress, cauchy);
+}
+
+brc_status brc_simulation_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
+{
+    return n == 0 ? BRC_OK : s->model->face_displacement(s, n, faces, out);
+}
+
+/* Sum of the loads with prescribed motion on the members of a set; moments about `point` where they are asked for: only
+ * they need to know where the members are now. */
+typedef struct reaction_sum {
+    double force[3], moment[3], point[3];
+    bool moments;
+} reaction_sum;
+
+/* u: displacement since the place x was taken; NULL without moments. */
+static void add_reaction(reaction_sum *sum, const double force[3], const double x[3], const double *u)
+{
+    double arm[3];
+    for (int c = 0; c < 3; ++c)
+        sum->force[c] += force[c];
+    if (!sum->moments) return;
+    for (int c = 0; c < 3; ++c)
+        arm[c] = x[c] + u[c] - sum->point[c];
+    for (int c = 0; c < 3; ++c)
+        sum->moment[c] += arm[(c + 1) % 3] * force[(c + 2) % 3] - arm[(c + 2) % 3] * force[(c + 1) % 3];
+}
+
+/* `reaction` of held faces holds the pull of the held face on its element: the force of the load on the solid. */
+static brc_status face_reactions(brc_simulation *s, const brc_set *set, reaction_sum *sum)
+{
+    const brc_domain *d = s->domain;
+    const brc_held_faces *h = &s->loads.held;
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    double *values = NULL, *u = NULL;
+    brc_status status = BRC_OK;
+    if (set->kind != BRC_SET_FACES || h->n_faces == 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * (int64_t)h->n_faces, "reactions"));
+    BRC_TRY_OR(cleanup, brc_download(s, h->reaction, bytes, values, 3 * (int64_t)h->n_faces));
+    if (sum->moments) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * set->n_members, "reactions"));
+        BRC_TRY_OR(cleanup, brc_simulation_face_displacement(s, set->n_members, set->members, u));
+    }
+    for (int64_t m = 0; m < set->n_members; ++m) {
+        const int64_t f = set->members[m], at = h->index_of_free_face[f];
+        if (at >= 0) add_reaction(sum, values + 3 * at, d->free_centroid + 3 * f, u ? u + 3 * m : NULL);
+    }
+cleanup:
+    brc_memory_free(values);
+    brc_memory_free(u);
+    return status;
+}
+
+static brc_status element_reactions(brc_simulation *s, const brc_set *set, reaction_sum *sum)
+{
+    const brc_domain *d = s->domain;
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    double *values = NULL, *u = NULL;
+    bool *member = NULL;
+    brc_status status = BRC_OK;
+    if (s->loads.n_imposed + s->loads.n_turns == 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * d->n_elements, "reactions"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "members"));
+    for (int64_t m = 0; m < set->n_members; ++m)
+        member[set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]]] = true;
+    if (sum->moments) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "reactions"));
+        BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, u, 3));
+    }
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
+        const brc_imposed_load *m = s->loads.imposed + i;
+        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
+        for (int32_t k = 0; k < m->n; ++k) {
+            const int64_t e = m->element_id[k];
+            if (member[e]) add_reaction(sum, values + 3 * (int64_t)k, d->position + 3 * e, u ? u + 3 * e : NULL);
+        }
+    }
+    for (int32_t i = 0; sum->moments && i < s->loads.n_turns; ++i) {
+        const brc_turn_load *m = s->loads.turns + i;
+        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
+        for (int32_t k = 0; k < m->n; ++k)
+            for (int c = 0; member[m->element_id[k]] && c < 3; ++c)
+                sum->moment[c] += values[3 * (int64_t)k + c];
+    }
+cleanup:
+    brc_memory_free(values);
+    brc_memory_free(u);
+    brc_memory_free(member);
+    return status;
+}
+
+static brc_status reactions(brc_simulation *s, int32_t set, reaction_sum *sum)
+{
+    BRC_TRY(face_reactions(s, s->domain->sets + set, sum));
+    return element_reactions(s, s->domain->sets + set, sum);
+}
+
+brc_status brc_simulation_reaction(brc_simulation *s, int32_t set, double out[3])
+{
+    reaction_sum sum = {.force = {0}};
+    BRC_TRY(reactions(s, set, &sum));
+    memcpy(out, sum.force, sizeof sum.force);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_reaction_moment(brc_simulation *s, int32_t set, const double point[3], double out[3])
+{
+    reaction_sum sum = {.point = {point[0], point[1], point[2]}, .moments = true};
+    BRC_TRY(reactions(s, set, &sum));
+    memcpy(out, sum.moment, sizeof sum.moment);
+    return BRC_OK;
+}
+
+brc_status brc_simulation_applied_force(brc_simulation *s, double *out)
+{
+    memset(out, 0, 3 * (size_t)s->domain->n_elements * sizeof *out);
+    for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
+        const brc_push_load *p = s->loads.pushes + i;
+        for (int32_t k = 0; k < p->n; ++k)
+            for (int c = 0; c < 3; ++c)
+                out[3 * (int64_t)p->element_id[k] + c] += p->factor * p->total_of[3 * (int64_t)k + c];
+    }
+    return BRC_OK;
+}

@@ -1,0 +1,35 @@
+/* The finest level on the host: elements with displacements and rotations, joined by bonds. Of beams it is their own
+ * linear stiffness; of cells a stand-in that has the elasticity of the material and couples neighbours alone
+ * (docs/notebook/theory.md T6). */
+#ifndef BRC_SOLVER_MULTIGRID_FINE_H
+#define BRC_SOLVER_MULTIGRID_FINE_H
+
+#include "../../run/simulation_internal.h"
+#include "rows.h"
+
+/* Of a material: stiffness of its bonds over S/L along and across them, and of the frames of their ends over L^2
+ * [Pa]. */
+typedef struct brc_bond_moduli {
+    double axial, shear, frame;
+} brc_bond_moduli;
+brc_bond_moduli brc_bond_moduli_of(const brc_elastic *elastic);
+
+typedef struct brc_fine {
+    const brc_simulation *s;
+    brc_bond_moduli *moduli; /* [n_materials] */
+    uint8_t *whole;          /* [n_half_edges] 0: broken; NULL: none is */
+    double soft;             /* what the diagonal is raised by, so that rigid motions of pieces meet something [-] */
+    int32_t n_ground;
+    int32_t *ground_element; /* [n_ground] ascending */
+    brc_block *ground;       /* [n_ground] stiffness of held faces */
+    brc_nodes nodes;
+    brc_rows rows;
+    double *spacing; /* [bodies] mean distance of neighbours [m] */
+} brc_fine;
+
+/* Of the loads of the stage and the bonds as they were at a moment (brc_fracture_moment). Free it after a failure
+ * too. */
+brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *out);
+void brc_fine_free(brc_fine *fine);
+
+#endif

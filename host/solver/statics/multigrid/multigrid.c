@@ -1,0 +1,368 @@
+/* Levels, made on the host one after the other and uploaded. */
+#include "multigrid_internal.h"
+#include "../../effects/fracture/fracture_internal.h"
+#include <math.h>
+#include <omp.h>
+#include <string.h>
+
+/* Boxes of the first aggregates, in spacings; those of each further level are twice as wide. Measured on cantilevers
+ * and cubes (docs/notebook/performance.md). */
+static const double box_in_spacings = 3;
+enum { MOST_SOLVED = 100 }; /* nodes of a coarsest level whose inverse is kept */
+
+static brc_status find_kernels(brc_multigrid *m)
+{
+    brc_level_kernels *k = &m->kernel;
+    const struct {
+        brc_kernel **slot;
+        const char *name;
+    } wanted[] = {{&k->cells, "multigrid_cells"},      {&k->ground, "multigrid_ground"},
+                  {&k->matrix, "multigrid_matrix"},    {&k->step, "multigrid_step"},
+                  {&k->collect, "multigrid_collect"},  {&k->spread, "multigrid_spread"},
+                  {&k->prolong, "multigrid_prolong"},  {&k->restriction, "multigrid_restrict"},
+                  {&k->coarsest, "multigrid_coarsest"}};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
+        BRC_TRY(brc_kernel_find(m->s->device, wanted[i].name, wanted[i].slot));
+    return BRC_OK;
+}
+
+static brc_status new_unknowns(brc_simulation *s, brc_unknowns *out, int64_t n)
+{
+    BRC_TRY(brc_new_state(s, &out->move, 3 * n, "multigrid"));
+    return brc_new_state(s, &out->turn, 3 * n, "multigrid");
+}
+
+static brc_status new_uploaded_state(brc_simulation *s, brc_buffer **out, const double *values, int64_t count)
+{
+    BRC_TRY(brc_new_state(s, out, count, "multigrid"));
+    return brc_upload_state(s, *out, values, count);
+}
+
+/* Integers that the host has wider. */
+static brc_status new_narrowed(brc_simulation *s, brc_buffer **out, const int64_t *values, int64_t count)
+{
+    int32_t *narrow = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "multigrid"));
+    for (int64_t i = 0; i < count; ++i)
+        narrow[i] = (int32_t)values[i];
+    const brc_status status = brc_new_int(s, out, narrow, count, "multigrid");
+    brc_memory_free(narrow);
+    return status;
+}
+
+/* Integers by element to rows; padding: fill. */
+static brc_status new_rows(brc_simulation *s, brc_buffer **out, const int32_t *of_element, const uint8_t *bits,
+                           int32_t fill)
+{
+    const brc_layout *layout = s->layout;
+    int32_t *rows = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_rows, "multigrid"));
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        rows[r] = e < 0 ? fill : of_element ? of_element[e] : bits[e];
+    }
+    const brc_status status = brc_new_int(s, out, rows, layout->n_rows, "multigrid");
+    brc_memory_free(rows);
+    return status;
+}
+
+/* Moduli of several materials, and blocks of held faces, rows by columns. */
+static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
+{
+    brc_simulation *s = m->s;
+    double *moduli = NULL;
+    int32_t *rows = NULL;
+    brc_status status = BRC_OK;
+    m->moduli = f->moduli[s->material_of_element[0]];
+    if (brc_solves_rotations(s->model))
+        return brc_new_state(s, &m->orientation, 4 * (int64_t)s->layout->n_rows, "multigrid");
+    if (brc_device_has_many_materials(s->device)) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &moduli, 3 * (int64_t)s->layout->n_rows, "multigrid"));
+        for (int32_t r = 0; r < s->layout->n_rows; ++r) {
+            const int32_t e = s->layout->element_of_row[r];
+            const brc_bond_moduli *k = &f->moduli[s->material_of_element[e < 0 ? 0 : e]];
+            moduli[3 * (int64_t)r] = k->axial, moduli[3 * (int64_t)r + 1] = k->shear,
+                       moduli[3 * (int64_t)r + 2] = k->frame;
+        }
+        BRC_TRY_OR(cleanup, brc_new_coeff(s, &m->moduli_of, 3 * (int64_t)s->layout->n_rows, "multigrid"));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, m->moduli_of, moduli, 3 * (int64_t)s->layout->n_rows));
+    }
+    m->n_ground = f->n_ground;
+    if (f->n_ground > 0) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, f->n_ground, "multigrid"));
+        for (int32_t i = 0; i < f->n_ground; ++i)
+            rows[i] = s->layout->row_of_element[f->ground_element[i]];
+        BRC_TRY_OR(cleanup, brc_new_int(s, &m->ground_element, rows, f->n_ground, "multigrid"));
+        BRC_TRY_OR(cleanup, new_uploaded_state(s, &m->ground, f->ground[0], 36 * (int64_t)f->n_ground)); /* symmetric */
+    }
+cleanup:
+    brc_memory_free(moduli);
+    brc_memory_free(rows);
+    return status;
+}
+
+/* The finest level: inverse [n_elements][21]. */
+static brc_status upload_finest(brc_multigrid *m, const brc_fine *f, const double (*inverse)[21])
+{
+    brc_simulation *s = m->s;
+    brc_level *l = &m->level[0];
+    l->n = s->layout->n_rows;
+    BRC_TRY(upload_bonds(m, f));
+    BRC_TRY(brc_new_state(s, &l->inverse, 21 * l->n, "multigrid"));
+    BRC_TRY(brc_state_to_rows(s, l->inverse, inverse[0], 21, 0));
+    BRC_TRY(new_rows(s, &l->free_bits, NULL, f->nodes.free_bits, 0));
+    BRC_TRY(new_unknowns(s, &l->left, l->n));
+    BRC_TRY(new_unknowns(s, &l->step, l->n));
+    BRC_TRY(new_unknowns(s, &l->right, l->n));
+    return new_unknowns(s, &l->x, l->n);
+}
+
+static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, const int32_t *aggregate,
+                                    const brc_nodes *coarse)
+{
+    brc_simulation *s = m->s;
+    brc_level *l = &m->level[0];
+    int32_t *start = NULL, *member = NULL;
+    double *arm = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, new_rows(s, &l->aggregate, aggregate, NULL, -1));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &start, coarse->n + 2, "multigrid"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, nodes->n, "multigrid"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arm, 3 * (int64_t)s->layout->n_rows, "multigrid"));
+    for (int64_t e = 0; e < nodes->n; ++e)
+        if (aggregate[e] >= 0) start[aggregate[e] + 2] += 1;
+    for (int64_t i = 1; i <= coarse->n; ++i)
+        start[i + 1] += start[i];
+    for (int64_t e = 0; e < nodes->n; ++e) {
+        if (aggregate[e] < 0) continue;
+        member[start[aggregate[e] + 1]++] = s->layout->row_of_element[e];
+        for (int c = 0; c < 3; ++c)
+            arm[3 * (int64_t)s->layout->row_of_element[e] + c] = nodes->place[e][c] - coarse->place[aggregate[e]][c];
+    }
+    BRC_TRY_OR(cleanup, brc_new_int(s, &l->member_start, start, coarse->n + 1, "multigrid"));
+    BRC_TRY_OR(cleanup, brc_new_int(s, &l->member, member, nodes->n, "multigrid"));
+    BRC_TRY_OR(cleanup, brc_new_coeff(s, &l->arm, 3 * (int64_t)s->layout->n_rows, "multigrid"));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, l->arm, arm, 3 * (int64_t)s->layout->n_rows));
+cleanup:
+    brc_memory_free(start);
+    brc_memory_free(member);
+    brc_memory_free(arm);
+    return status;
+}
+
+/* Blocks [count][6][6] to those of a device buffer, each by columns. */
+static brc_status new_blocks(brc_simulation *s, brc_buffer **out, int64_t count, const brc_block *wide,
+                             const brc_narrow *narrow)
+{
+    enum { CHUNK = 4096 };
+    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    double *part = NULL;
+    float *single = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, brc_new_state(s, out, 36 * count, "multigrid"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &part, 36 * CHUNK, "multigrid"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &single, 36 * CHUNK, "multigrid"));
+    for (int64_t first = 0; first < count; first += CHUNK) {
+        const int64_t n = count - first < CHUNK ? count - first : CHUNK;
+        for (int64_t k = 0; k < n; ++k)
+            for (int r = 0; r < 6; ++r)
+                for (int c = 0; c < 6; ++c) {
+                    const double value = wide ? wide[first + k][6 * r + c] : (double)narrow[first + k][6 * r + c];
+                    part[36 * k + 6 * c + r] = value;
+                    single[36 * k + 6 * c + r] = (float)value;
+                }
+        BRC_TRY_OR(cleanup, brc_buffer_write(*out, 36 * first * bytes,
+                                             bytes == 8 ? (const void *)part : (const void *)single, 36 * n * bytes));
+    }
+cleanup:
+    brc_memory_free(part);
+    brc_memory_free(single);
+    return status;
+}
+
+static brc_status upload_prolongation(brc_simulation *s, brc_level *l, const brc_prolongation *p)
+{
+    BRC_TRY(new_narrowed(s, &l->p_start, p->start, p->n + 1));
+    BRC_TRY(brc_new_int(s, &l->p_column, p->column, p->start[p->n], "multigrid"));
+    BRC_TRY(new_blocks(s, &l->p_block, p->start[p->n], NULL, (const brc_narrow *)p->block));
+    BRC_TRY(new_narrowed(s, &l->p_column_start, p->column_start, p->n_coarse + 1));
+    return brc_new_int(s, &l->p_entry, p->entry[0], 2 * p->start[p->n], "multigrid");
+}
+
+static brc_status upload_matrix(brc_simulation *s, brc_level *l, const brc_stored_rows *rows,
+                                const double (*inverse)[21])
+{
+    l->n = rows->n;
+    BRC_TRY(new_narrowed(s, &l->start, rows->start, rows->n + 1));
+    BRC_TRY(brc_new_int(s, &l->column, rows->column, rows->start[rows->n], "multigrid"));
+    BRC_TRY(new_blocks(s, &l->block, rows->start[rows->n], (const brc_block *)rows->block, NULL));
+    BRC_TRY(new_uploaded_state(s, &l->inverse, inverse[0], 21 * rows->n));
+    BRC_TRY(new_unknowns(s, &l->right, rows->n));
+    BRC_TRY(new_unknowns(s, &l->x, rows->n));
+    BRC_TRY(new_unknowns(s, &l->left, rows->n));
+    return new_unknowns(s, &l->step, rows->n);
+}
+
+/* Two thirds of the way of a step that the stiffest direction bears just so. given: 0, or the weight. */
+static brc_status weigh(brc_multigrid *m, int level, double given)
+{
+    static const double above = 1.05; /* what a power iteration misses */
+    double stiffest;
+    m->level[level].weight = given;
+    if (given > 0) return BRC_OK;
+    BRC_TRY(brc_level_stiffest(m, level, &stiffest));
+    m->level[level].weight = 4 / (3 * above * stiffest);
+    return BRC_OK;
+}
+
+/* The inverse of the coarsest level, where it is small. */
+static brc_status solve_coarsest(brc_multigrid *m, const brc_stored_rows *rows)
+{
+    brc_simulation *s = m->s;
+    double *inverse = NULL;
+    bool done = false;
+    if (rows->n > MOST_SOLVED) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &inverse, 36 * rows->n * rows->n, "coarsest level"));
+    brc_status status = brc_invert_rows(s->context, rows, inverse, &done);
+    if (status == BRC_OK && done) status = new_uploaded_state(s, &m->inverse, inverse, 36 * rows->n * rows->n);
+    brc_memory_free(inverse);
+    return status;
+}
+
+/* What the host has of the level that was made last. */
+typedef struct made_level {
+    brc_rows rows;
+    brc_stored_rows stored;
+    brc_nodes nodes;
+    double (*inverse)[21];
+} made_level;
+
+/* The nodes of the finest level are those of `fine`. */
+static void free_made(made_level *made, const brc_fine *f)
+{
+    brc_stored_rows_free(&made->stored);
+    brc_memory_free(made->inverse);
+    if (made->nodes.place != f->nodes.place) brc_nodes_free(&made->nodes);
+}
+
+/* The next level in place of the one before. *more: false, and nothing done, where aggregates would not be fewer. */
+static brc_status make_next(brc_multigrid *m, const brc_fine *f, made_level *made, const double *size, bool *more)
+{
+    brc_simulation *s = m->s;
+    const int level = m->n_levels - 1;
+    made_level next = {0};
+    brc_prolongation p = {0};
+    int32_t *aggregate = NULL;
+    brc_status status = BRC_OK;
+    *more = false;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &aggregate, made->rows.n, "aggregates"));
+    BRC_TRY_OR(cleanup, brc_aggregate(s->context, &made->rows, &made->nodes, size, f->spacing, aggregate, &next.nodes));
+    if (next.nodes.n == 0 || (double)next.nodes.n > 0.7 * (double)made->rows.n || m->n_levels == BRC_MOST_LEVELS)
+        goto cleanup;
+    BRC_TRY_OR(cleanup, brc_prolongation_create(s->context, &made->rows, &made->nodes, aggregate, &next.nodes,
+                                                m->level[level].weight, (const double(*)[21])made->inverse, &p));
+    BRC_TRY_OR(cleanup, brc_coarse_rows(s->context, &made->rows, &p, &next.stored));
+    if (brc_memory_held() > m->most_held) m->most_held = brc_memory_held();
+    BRC_TRY_OR(cleanup, level == 0 ? upload_aggregates(m, &made->nodes, aggregate, &next.nodes)
+                                   : upload_prolongation(s, &m->level[level], &p));
+    next.rows = brc_rows_of(&next.stored);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &next.inverse, next.nodes.n, "levels"));
+    BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &next.rows, NULL, next.inverse));
+    BRC_TRY_OR(cleanup, upload_matrix(s, &m->level[m->n_levels++], &next.stored, (const double(*)[21])next.inverse));
+    BRC_TRY_OR(cleanup, weigh(m, m->n_levels - 1, 0));
+    *more = true;
+    const made_level before = *made;
+    *made = next;
+    made->rows.of = &made->stored;
+    next = before;
+cleanup:
+    brc_memory_free(aggregate);
+    brc_prolongation_free(&p);
+    free_made(&next, f);
+    return status;
+}
+
+static brc_status make_levels(brc_multigrid *m, const brc_fine *f, double weight)
+{
+    brc_simulation *s = m->s;
+    made_level made = {.rows = f->rows, .nodes = f->nodes};
+    double *size = NULL;
+    int32_t n_bodies = 1;
+    bool more = true;
+    brc_status status = BRC_OK;
+    for (int64_t e = 0; e < f->nodes.n; ++e)
+        if (f->nodes.body[e] >= n_bodies) n_bodies = f->nodes.body[e] + 1;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &size, n_bodies, "levels"));
+    for (int32_t b = 0; b < n_bodies; ++b)
+        size[b] = box_in_spacings * f->spacing[b];
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &made.inverse, f->nodes.n, "levels"));
+    BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &made.rows, f->nodes.free_bits, made.inverse));
+    BRC_TRY_OR(cleanup, upload_finest(m, f, (const double(*)[21])made.inverse));
+    m->n_levels = 1;
+    BRC_TRY_OR(cleanup, weigh(m, 0, weight));
+    while (more && made.rows.n > MOST_SOLVED) {
+        BRC_TRY_OR(cleanup, make_next(m, f, &made, size, &more));
+        for (int32_t b = 0; b < n_bodies; ++b)
+            size[b] *= 2;
+    }
+    if (m->n_levels > 1) BRC_TRY_OR(cleanup, solve_coarsest(m, &made.stored));
+cleanup:
+    free_made(&made, f);
+    brc_memory_free(size);
+    return status;
+}
+
+brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin, brc_multigrid **out)
+{
+    const int64_t held = brc_memory_held(), on_device = brc_device_bytes(s->device);
+    const double since = omp_get_wtime();
+    brc_multigrid *m = NULL;
+    brc_fine fine = {0};
+    brc_status status = BRC_OK;
+    *out = NULL;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &m, 1, "multigrid"));
+    m->s = s;
+    BRC_TRY_OR(cleanup, find_kernels(m));
+    if (!(origin->weight > 0) && s->fracture) origin->moment = brc_fracture_moment(s);
+    BRC_TRY_OR(cleanup, brc_fine_create(s, origin->moment, &fine));
+    BRC_TRY_OR(cleanup, make_levels(m, &fine, origin->weight));
+    origin->weight = m->level[0].weight;
+    m->report = (brc_multigrid_report){.n_levels = m->n_levels,
+                                       .device_bytes = brc_device_bytes(s->device) - on_device,
+                                       .host_bytes = m->most_held - held,
+                                       .seconds = omp_get_wtime() - since};
+    for (int i = 0; i < m->n_levels; ++i)
+        m->report.nodes[i] = i == 0 ? s->domain->n_elements : m->level[i].n;
+    *out = m;
+    m = NULL;
+cleanup:
+    brc_fine_free(&fine);
+    brc_multigrid_free(&m);
+    return status;
+}
+
+void brc_multigrid_free(brc_multigrid **multigrid)
+{
+    brc_multigrid *m = *multigrid;
+    if (!m) return;
+    for (int i = 0; i < BRC_MOST_LEVELS; ++i) {
+        brc_level *l = &m->level[i];
+        brc_buffer **all[] = {
+            &l->inverse,      &l->start,    &l->column,    &l->block,          &l->right.move, &l->right.turn,
+            &l->x.move,       &l->x.turn,   &l->left.move, &l->left.turn,      &l->step.move,  &l->step.turn,
+            &l->p_start,      &l->p_column, &l->p_block,   &l->p_column_start, &l->p_entry,    &l->aggregate,
+            &l->member_start, &l->member,   &l->arm,       &l->free_bits};
+        for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+            brc_buffer_free(all[k]);
+    }
+    brc_buffer **rest[] = {&m->inverse, &m->moduli_of, &m->ground_element, &m->ground, &m->orientation};
+    for (size_t k = 0; k < sizeof rest / sizeof *rest; ++k)
+        brc_buffer_free(rest[k]);
+    brc_memory_free(m);
+    *multigrid = NULL;
+}
+
+brc_multigrid_report brc_multigrid_get_report(const brc_multigrid *multigrid)
+{
+    return multigrid->report;
+}

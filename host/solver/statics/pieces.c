@@ -1,0 +1,132 @@
+#include "pieces.h"
+#include "../effects/fracture/fracture_internal.h"
+
+/* Elements by piece, each piece's in the order of their ids. */
+static brc_status sort_elements(brc_simulation *s, const int32_t *piece, brc_pieces *p)
+{
+    const int64_t n = s->domain->n_elements;
+    BRC_TRY(BRC_ALLOCATE(s->context, &p->start, p->n + 1, "pieces"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &p->element, n, "pieces"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &p->place, 3 * n, "pieces"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &p->free, p->n, "pieces"));
+    for (int64_t e = 0; e < n; ++e)
+        p->start[piece[e] + 1] += 1;
+    for (int64_t i = 0; i < p->n; ++i)
+        p->start[i + 1] += p->start[i];
+    for (int64_t e = 0; e < n; ++e) {
+        const int64_t at = p->start[piece[e]]++;
+        p->element[at] = (int32_t)e;
+        for (int c = 0; c < 3; ++c)
+            p->place[3 * at + c] = s->domain->position[3 * e + c];
+    }
+    for (int64_t i = p->n; i > 0; --i)
+        p->start[i] = p->start[i - 1];
+    p->start[0] = 0;
+    return BRC_OK;
+}
+
+static brc_status find_free(brc_simulation *s, const int32_t *piece, brc_pieces *p)
+{
+    const double *place = s->domain->position;
+    for (int64_t i = 0; i < p->n; ++i)
+        brc_free_motions_begin(&p->free[i], p->start[i + 1] - p->start[i], p->place + 3 * p->start[i]);
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
+        for (int32_t k = 0; s->loads.imposed[i].load >= 0 && k < s->loads.imposed[i].n; ++k)
+            for (int c = 0; c < 3; ++c) {
+                const int32_t e = s->loads.imposed[i].element_id[k];
+                if (s->loads.imposed[i].component_bits >> c & 1)
+                    brc_free_motions_hold(&p->free[piece[e]], place + 3 * (int64_t)e, c);
+            }
+    for (int64_t f = 0; s->loads.held.n_faces > 0 && f < s->domain->n_free_faces; ++f) {
+        const int32_t at = s->loads.held.index_of_free_face[f];
+        for (int c = 0; at >= 0 && c < 3; ++c)
+            if (s->loads.held.component_of_face[at] >> c & 1)
+                brc_free_motions_hold(&p->free[piece[s->domain->free_element[f]]], s->domain->free_centroid + 3 * f, c);
+    }
+    for (int32_t i = 0; i < s->loads.n_turns; ++i)
+        for (int32_t k = 0; k < s->loads.turns[i].n; ++k)
+            for (int c = 0; c < 3; ++c)
+                if (brc_current_stage(s)->loads[s->loads.turns[i].load].component[c])
+                    brc_free_motions_clamp(&p->free[piece[s->loads.turns[i].element_id[k]]], c);
+    for (int64_t i = 0; i < p->n; ++i) {
+        if (!brc_free_motions_find(&p->free[i]))
+            return BRC_FAIL(s->context, BRC_INTERNAL, "the free motions of the stage were not found");
+        p->any |= p->free[i].n > 0;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_pieces_number(brc_context *context, const brc_domain *d, int32_t *piece, int64_t *n)
+{
+    int32_t *stack = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &stack, d->n_elements, "pieces"));
+    *n = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        piece[e] = -1;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        int64_t top = 0;
+        if (piece[e] >= 0) continue;
+        piece[e] = (int32_t)*n;
+        stack[top++] = (int32_t)e;
+        while (top > 0) {
+            const int32_t now = stack[--top];
+            for (int64_t h = d->row_start[now]; h < d->row_start[now + 1]; ++h) {
+                if (piece[d->neighbour[h]] >= 0) continue;
+                piece[d->neighbour[h]] = (int32_t)*n;
+                stack[top++] = d->neighbour[h];
+            }
+        }
+        ++*n;
+    }
+    brc_memory_free(stack);
+    return BRC_OK;
+}
+
+brc_status brc_pieces_find(brc_simulation *s, brc_pieces *out)
+{
+    int32_t *piece = NULL;
+    brc_status status = BRC_OK;
+    brc_pieces_free(out);
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &piece, s->domain->n_elements, "pieces"));
+    if (s->fracture)
+        BRC_TRY_OR(cleanup, brc_simulation_fragments(s, piece, &out->n));
+    else
+        BRC_TRY_OR(cleanup, brc_pieces_number(s->context, s->domain, piece, &out->n));
+    BRC_TRY_OR(cleanup, sort_elements(s, piece, out));
+    status = find_free(s, piece, out);
+cleanup:
+    brc_memory_free(piece);
+    return status;
+}
+
+void brc_pieces_free(brc_pieces *pieces)
+{
+    brc_memory_free(pieces->start);
+    brc_memory_free(pieces->element);
+    brc_memory_free(pieces->place);
+    brc_memory_free(pieces->free);
+    *pieces = (brc_pieces){0};
+}
+
+brc_status brc_pieces_project(brc_context *context, const brc_pieces *p, double *force, double *torque)
+{
+    double *part = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &part, 6 * p->start[p->n], "pieces"));
+    for (int64_t i = 0; i < p->n; ++i) {
+        const int64_t first = p->start[i], n = p->start[i + 1] - first;
+        if (p->free[i].n == 0) continue;
+        for (int64_t k = 0; k < 3 * n; ++k) {
+            const int64_t of = 3 * (int64_t)p->element[first + k / 3] + k % 3;
+            part[k] = force[of];
+            if (torque) part[3 * n + k] = torque[of];
+        }
+        brc_free_motions_project(&p->free[i], n, p->place + 3 * first, part, torque ? part + 3 * n : NULL);
+        for (int64_t k = 0; k < 3 * n; ++k) {
+            const int64_t of = 3 * (int64_t)p->element[first + k / 3] + k % 3;
+            force[of] = part[k];
+            if (torque) torque[of] = part[3 * n + k];
+        }
+    }
+    brc_memory_free(part);
+    return BRC_OK;
+}

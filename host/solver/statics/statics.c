@@ -1,0 +1,526 @@
+/* Elastic equilibrium. dlsm and cbm: preconditioned conjugate gradients on the linearised operator, matrix-free on the
+ * device, inside a modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
+ * (gmres.c) on its linearisation, then the rotations that balance its torques. */
+#include "../../base/random.h"
+#include "statics.h"
+#include "../effects/fracture/fracture_internal.h"
+#include "../run/look.h"
+#include "multigrid/multigrid.h"
+#include "static_events.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { MOST_CORRECTIONS = 60 };
+
+/* A body of beams that no load holds: what would move it as a whole cannot be balanced and leaves the residual. Dead
+ * loads that balance do so to first order only, since they act where the elements went. More than `rigid_most` of the
+ * residual is an error of the scene. */
+static brc_status balance_free_body(brc_simulation *s, bool finite)
+{
+    static const double rigid_most = 1e-3;
+    const int64_t n = s->domain->n_elements;
+    double *place = NULL, *torque = NULL, *force = NULL, rigid, square = 0;
+    brc_status status = BRC_OK;
+    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
+        if (s->loads.imposed[i].load >= 0) return BRC_OK;
+    if (!brc_solves_rotations(s->model) || s->loads.n_turns > 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));
+    if (finite) BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, place, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->torque, torque, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->force, force, 3));
+    for (int64_t k = 0; k < 3 * n; ++k) {
+        place[k] += s->domain->position[k];
+        square += force[k] * force[k];
+    }
+    brc_balance(n, place, torque, force, &rigid);
+    if (s->static_report.iterations == 0 && rigid > rigid_most * sqrt(square)) {
+        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
+                          "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or "
+                          "turn it as a whole; hold "
+                          "some elements, or use a radial element_force",
+                          brc_current_stage(s)->name, rigid / sqrt(square));
+        goto cleanup;
+    }
+    status = brc_state_to_rows(s, s->force, force, 3, 0);
+cleanup:
+    brc_memory_free(place);
+    brc_memory_free(torque);
+    brc_memory_free(force);
+    return status;
+}
+
+brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm)
+{
+    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
+                                                       .force = s->force,
+                                                       .orientation = s->orientation,
+                                                       .torque = s->torque,
+                                                       .finite = finite,
+                                                       .t = s->load_factor}));
+    /* the residual of the free components; reactions of imposed elements were read just before */
+    BRC_TRY(brc_loads_zero_imposed(s, s->force));
+    BRC_TRY(balance_free_body(s, finite));
+    double square;
+    BRC_TRY(
+        brc_statics_square(s, v, (brc_unknowns){s->force, brc_solves_rotations(s->model) ? s->torque : NULL}, &square));
+    *norm = sqrt(square);
+    return isfinite(square) ? BRC_OK
+                            : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                                       "stage '%s': the static residual is not finite; check that the loads balance or "
+                                       "the supports hold the body, "
+                                       "or apply the load in more increments",
+                                       brc_current_stage(s)->name);
+}
+
+/* Small rotations that stand for the orientations of a linear stage: (1, theta/2), and those that its loads turn. */
+static brc_status read_theta(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->domain->n_elements;
+    double *q = NULL, *theta = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &theta, 3 * n, "rotations"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    for (int64_t e = 0; e < n; ++e)
+        for (int c = 0; c < 3; ++c)
+            theta[3 * e + c] = 2 * q[4 * e + 1 + c] / q[4 * e];
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->theta, theta, 3, 0));
+cleanup:
+    brc_memory_free(q);
+    brc_memory_free(theta);
+    return status;
+}
+
+brc_status brc_statics_project_free_motions(brc_simulation *s, const brc_solve_vectors *v, brc_unknowns r)
+{
+    const int64_t n = s->domain->n_elements;
+    double *force = NULL, *torque = NULL;
+    brc_status status = BRC_OK;
+    if (!v->pieces.any) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "free motions"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, r.move, force, 3));
+    if (r.turn) {
+        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
+        BRC_TRY_OR(cleanup, brc_state_from_rows(s, r.turn, torque, 3));
+    }
+    BRC_TRY_OR(cleanup, brc_pieces_project(s->context, &v->pieces, force, torque));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, r.move, force, 3, 0));
+    if (torque) BRC_TRY_OR(cleanup, brc_state_to_rows(s, r.turn, torque, 3, 0));
+cleanup:
+    brc_memory_free(force);
+    brc_memory_free(torque);
+    return status;
+}
+
+brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)
+{
+    BRC_TRY(brc_pieces_find(s, &v->pieces));
+    if (!v->pieces.any) brc_pieces_free(&v->pieces);
+    return BRC_OK;
+}
+
+static bool solves_rotations(const brc_wants *w)
+{
+    return brc_solves_rotations(w->model);
+}
+static bool solves_moves(const brc_wants *w)
+{
+    return !brc_solves_rotations(w->model);
+}
+static bool settles_rotations(const brc_wants *w)
+{
+    return w->model->statics && w->model->statics->settle;
+}
+static bool statics(const brc_wants *w)
+{
+    bool any = false;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        any |= w->scene->stages[i].solver == BRC_SOLVER_STATIC;
+    return any;
+}
+
+#define AT(member) BRC_FIELD_AT(brc_solve_vectors, member)
+#define UNKNOWNS(name, member)                                                                                         \
+    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT},               \
+    {                                                                                                                  \
+        name "_turn", brc_each_row, 3, BRC_FIELD_STATE, solves_rotations, AT(member.turn), "static solver", "-",       \
+            BRC_NOT_KEPT                                                                                               \
+    }
+static const brc_field_row rows[] = {
+    UNKNOWNS("x", x),
+    UNKNOWNS("r", r),
+    UNKNOWNS("z", z),
+    UNKNOWNS("p", p),
+    UNKNOWNS("kp", kp),
+    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m",
+     BRC_KEPT("static.before", BRC_KEEP_ALL)},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, settles_rotations, AT(zero), "static solver", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-",
+     BRC_NOT_KEPT},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, solves_rotations, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, solves_moves, AT(preconditioner.blocks), "preconditioner", "-",
+     BRC_NOT_KEPT},
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, solves_rotations, AT(preconditioner.blocks), "preconditioner", "-",
+     BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
+
+static brc_status create_vectors(brc_simulation *s, brc_solve_vectors *v)
+{
+    v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    v->arm = 1;
+    BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
+    if (s->domain->radius) {
+        double sum = 0;
+        for (int64_t e = 0; e < s->domain->n_elements; ++e)
+            sum += s->domain->radius[e];
+        v->arm = sum / (double)s->domain->n_elements;
+    }
+    BRC_TRY(brc_statics_find_pieces(s, v));
+    return brc_preconditioner_create(s, v);
+}
+
+static void free_vectors(brc_solve_vectors *v)
+{
+    brc_fields_free(&brc_solve_fields, v);
+    brc_pieces_free(&v->pieces);
+    brc_multigrid_free(&v->preconditioner.multigrid);
+}
+
+double brc_statics_tolerance(const brc_simulation *s)
+{
+    static const double by_precision[] = {[BRC_DOUBLE] = 1e-10, [BRC_MIXED] = 1e-6, [BRC_SINGLE] = 1e-5};
+    const double asked = brc_current_stage(s)->tolerance, own = by_precision[brc_device_get_precision(s->device)];
+    if (asked > 0) return asked;
+    return fmax(own, s->model->statics->least_tolerance);
+}
+
+int32_t brc_statics_most_iterations(const brc_simulation *s)
+{
+    const int32_t asked = brc_current_stage(s)->max_iterations;
+    return asked > 0 ? asked : 20000 + (int32_t)(200 * cbrt((double)s->domain->n_elements));
+}
+
+/* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of
+ * equal increments costs little more than one. v->before holds the displacement before the last increment on entry,
+ * before this one on return. */
+static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t increment)
+{
+    const int64_t bytes = 3 * (int64_t)s->layout->n_rows * v->state_bytes;
+    const brc_unknowns state = {s->displacement, NULL};
+    if (increment == 1 || brc_solves_rotations(s->model)) return brc_buffer_copy(v->before, s->displacement, bytes);
+    BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, bytes)); /* u becomes 2 u - before */
+    BRC_TRY(brc_unknowns_add(s, -1, (brc_unknowns){v->before, NULL}, state));
+    BRC_TRY(brc_unknowns_add(s, 1, v->z, state));
+    return brc_buffer_copy(v->before, v->z.move, bytes);
+}
+
+/* The state takes the correction v->x. */
+static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
+{
+    const int32_t n = s->layout->n_rows;
+    BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
+    if (!brc_solves_rotations(s->model)) return BRC_OK;
+    if (finite)
+        return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
+    return brc_vector_small_rotation(s, v->theta, s->orientation);
+}
+
+/* How much of the residual a correction of the full law is solved to: to a tenth of what the law's change left of it
+ * after the correction before; the first one to `at_first`. Where no more was left than was asked for, the law hardly
+ * changes, and the next correction is the last. (Blocks lose more by beginning anew than this saves.) */
+static double worthwhile(int correction, double lasting)
+{
+    static const double at_first = 3e-4;
+    if (correction == 0) return at_first;
+    return lasting < 3 * at_first ? 0 : fmin(0.1 * lasting, 0.1);
+}
+
+/* Whether a residual that stands is what the rounding of the displacements alone leaves: of the force of as much noise
+ * as half their last digits, a few times over, since corrections and forces are rounded too. */
+static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double norm, double reference, bool *out)
+{
+    static const double few = 8;
+    const int64_t n = 3 * (int64_t)s->layout->n_rows;
+    double *u = NULL, square;
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, n, "rounding"));
+    BRC_TRY_OR(cleanup, brc_download(s, s->displacement, v->state_bytes, u, n));
+    for (int64_t i = 0; i < n; ++i) {
+        double draws[4];
+        brc_random_uniform4(0, BRC_RANDOM_POWER_ITERATION, (uint64_t)i, 2, draws);
+        u[i] *= (draws[0] - 0.5) * (v->state_bytes == 8 ? DBL_EPSILON : FLT_EPSILON);
+    }
+    BRC_TRY_OR(cleanup, brc_upload_state(s, v->p.move, u, n));
+    if (v->p.turn) BRC_TRY_OR(cleanup, brc_buffer_fill_zero(v->p.turn));
+    BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, v->p.move));
+    BRC_TRY_OR(cleanup, brc_statics_apply(s, v));
+    BRC_TRY_OR(cleanup, brc_statics_square(s, v, v->kp, &square));
+    *out = norm <= few * sqrt(square);
+    brc_log(s->context, *out ? BRC_LOG_INFO : BRC_LOG_DEBUG,
+            "stage '%s': the residual stands at %.3g of the load; rounding of the displacements leaves %.3g",
+            brc_current_stage(s)->name, norm / reference, sqrt(square) / reference);
+cleanup:
+    brc_memory_free(u);
+    return status;
+}
+
+static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    static const double most_of_rounding = 1e-6; /* of the load; what is worse is no equilibrium, whatever the reason */
+    const double tolerance = brc_statics_tolerance(s);
+    const brc_model_statics *by = s->model->statics;
+    const bool finite = stage->finite_strain && !by->linear;
+    const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
+    double norm, left,
+        last = INFINITY,
+        earlier = INFINITY; /* slender beams: stretch and bending settle in turn, so two corrections count */
+    BRC_TRY(brc_statics_residual(s, v, finite, &norm));
+    if (norm > *reference) *reference = norm;
+    for (int correction = 0; norm > tolerance * *reference; ++correction) {
+        if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last && norm > 0.9 * earlier)) {
+            const bool near = norm < 100 * tolerance * *reference;
+            bool done = coarse && near; /* the precision's own floor */
+            if (!done && norm < most_of_rounding * *reference) BRC_TRY(is_rounding(s, v, norm, *reference, &done));
+            if (done) break;
+            if (!near || !v->preconditioner.multigrid)
+                return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                                "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d "
+                                "corrections, asked %.3g; "
+                                "check that the loads balance or the supports hold the body, use more increments, or "
+                                "relax `tolerance`",
+                                stage->name, s->load_factor, norm / *reference, correction, tolerance);
+            brc_preconditioner_give_up(s, v);
+            last = norm = INFINITY;
+        }
+        const double lasting = norm / last; /* the part of the residual that the correction before this one left */
+        earlier = last;
+        last = norm;
+        BRC_TRY(brc_unknowns_copy((brc_unknowns){s->force, s->torque}, v->r));
+        /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a
+         * residual about the moved sample a part as large as its strain is left in it, on which conjugate gradients
+         * would break down */
+        if (by->symmetric) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
+        const int32_t most = brc_statics_most_iterations(s);
+        BRC_TRY(brc_preconditioner_prepare(s, v));
+        const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, lasting) : 0,
+                     target = fmax(0.3 * tolerance * *reference, worth * norm);
+        BRC_TRY(by->symmetric ? brc_conjugate_gradients(s, v, false, target, most, progress, &left)
+                              : brc_gmres(s, v, target, most, progress, &left));
+        BRC_TRY(correct(s, v, finite));
+        BRC_TRY(brc_statics_residual(s, v, finite, &norm));
+        s->static_report.corrections += 1;
+        if (s->left_off) break;
+    }
+    s->static_report.residual = *reference > 0 ? norm / *reference : 0;
+    return by->settle ? by->settle(s, v, progress) : BRC_OK;
+}
+
+brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double factor)
+{
+    const int64_t n = s->domain->n_elements;
+    const bool finite = brc_current_stage(s)->finite_strain;
+    double *q = NULL;
+    brc_status status = BRC_OK;
+    if (factor == 0) { /* also of a state that is not finite */
+        BRC_TRY(brc_buffer_fill_zero(s->displacement));
+        return s->model->turns ? brc_vector_small_rotation(s, s->displacement, s->orientation) : BRC_OK;
+    }
+    BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
+    BRC_TRY(brc_unknowns_add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
+    if (!s->model->turns) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    for (int64_t e = 0; e < n; ++e) {
+        double square = 1;
+        for (int c = 1; c < 4; ++c) {
+            q[4 * e + c] *= factor / q[4 * e];
+            square += q[4 * e + c] * q[4 * e + c];
+        }
+        q[4 * e] = 1;
+        for (int c = 0; finite && c < 4; ++c)
+            q[4 * e + c] /= sqrt(square);
+    }
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->orientation, q, 4,
+                                          0.5)); /* rows of padding: some unit quaternion, none of length 0 */
+cleanup:
+    brc_memory_free(q);
+    return status;
+}
+
+/* No table, or the one that stands for none: the fraction of the load itself. */
+static bool is_proportional(const brc_table *t)
+{
+    return t->n == 0 || (t->n == 2 && t->time[0] == 0 && t->value[0] == 0 && t->time[1] == 1 && t->value[1] == 1);
+}
+
+brc_status brc_statics_solve_at(brc_simulation *s, brc_static_run *run, brc_progress *progress)
+{
+    BRC_TRY(brc_loads_prescribe(s, s->load_factor));
+    if (brc_solves_rotations(s->model)) BRC_TRY(read_theta(s, &run->vectors));
+    BRC_TRY(solve_increment(s, &run->vectors, &run->reference, progress));
+    return brc_force_of_state(s, BRC_BOOK_WORK);
+}
+
+brc_status brc_statics_failure(int32_t n, brc_simulation *const *part, double *ratio)
+{
+    *ratio = 0;
+    for (int32_t k = 0; k < n; ++k) {
+        double one;
+        BRC_TRY(brc_simulation_failure_ratio(part[k], &one));
+        *ratio = isfinite(*ratio) && isfinite(one) ? fmax(*ratio, one) : NAN;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_statics_refuse_unscalable(int32_t n, brc_simulation *const *part, const char *key)
+{
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
+    if (!part[0]->fracture)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': %s needs `fracture` and strengths in the scene",
+                        stage->name, key);
+    for (int32_t k = 0; k < n; ++k)
+        for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l)
+            if (!is_proportional(&brc_current_stage(part[k])->loads[l].table))
+                return BRC_FAIL(context, BRC_BAD_INPUT,
+                                "stage '%s': %s scales its loads, so they cannot follow a table; remove the table",
+                                stage->name, key);
+    return BRC_OK;
+}
+
+/* Scale the load so that the worst element of all parts is at the asked fraction of its limit: in proportion, and again
+ * from where that led, since limits see strains of second order, which do not grow as the load. */
+static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
+{
+    enum { MOST_SCALINGS = 12 };
+    static const double near = 1e-6; /* of the fraction asked for: below what any strength is known to */
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
+    double ratio;
+    BRC_TRY(brc_statics_failure(n, part, &ratio));
+    if (!(ratio > 0))
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it",
+                        stage->name);
+    for (int i = 0; i < MOST_SCALINGS && !(fabs(ratio / stage->to_failure - 1) <= near); ++i) {
+        const double by = stage->to_failure / ratio;
+        for (int32_t k = 0; k < n; ++k) {
+            BRC_TRY(brc_statics_scale(part[k], &run[k].vectors, by));
+            part[k]->load_factor *= by;
+            BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
+        }
+        BRC_TRY(brc_statics_failure(n, part, &ratio));
+        if (!(ratio > 0))
+            return BRC_FAIL(context, BRC_PHYSICS_STOPPED, "stage '%s': the failure ratio is %g at %g times the load",
+                            stage->name, ratio, part[0]->load_factor);
+    }
+    for (int32_t k = 0; k < n; ++k)
+        part[k]->step += 1;
+    brc_log(context, BRC_LOG_INFO,
+            "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name,
+            part[0]->load_factor, ratio);
+    BRC_TRY(brc_look_here(part[0], part[0]->step - 1));
+    return brc_notify_sample(part[0]);
+}
+
+/* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the
+ * next. */
+brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_state_store *store)
+{
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
+    BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
+    return brc_store_double(store, "static.reference", &run->reference);
+}
+
+/* Vectors of the solver for every part; a stage that begins is at rest. */
+static brc_status begin_runs(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_state_store *resumed)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        brc_simulation *s = part[k];
+        if (!resumed) {
+            s->static_report = (brc_static_report){0};
+            BRC_TRY(brc_buffer_fill_zero(s->velocity));
+        }
+        BRC_TRY(create_vectors(s, &run[k].vectors));
+        s->static_run = &run[k];
+        if (!resumed) continue;
+        resumed->part = k;
+        BRC_TRY(brc_statics_store_run(s, &run[k], resumed));
+    }
+    return BRC_OK;
+}
+
+/* The run may be left and taken up again after any increment; the one that scales the load to failure counts as one
+ * more. */
+static brc_status tell_pause(brc_simulation *s, int32_t increments)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const bool done = s->step >= increments + (stage->to_failure > 0);
+    const bool ended = s->note[s->stage].ended;
+    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED
+                                : ended        ? BRC_PAUSE_ENDED
+                                : done         ? BRC_PAUSE_DONE
+                                               : BRC_PAUSE_GOING));
+    if (!s->interrupted) return BRC_OK;
+    return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name,
+                    (long long)s->step, (int)increments);
+}
+
+static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
+{
+    const brc_stage *stage = brc_current_stage(part[0]);
+    const int32_t increments = stage->increments > 0 ? stage->increments : 1;
+    const bool *ended = &part[0]->note[part[0]->stage].ended; /* by a look */
+    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments && !*ended; ++i) {
+        for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
+            part[k]->load_factor = (double)i / increments;
+            BRC_TRY(predict(part[k], &run[k].vectors, i));
+            BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
+            part[k]->step = i;
+        }
+        BRC_TRY(brc_look_here(part[0], i - 1));
+        BRC_TRY(brc_notify_sample(part[0]));
+        BRC_TRY(tell_pause(part[0], increments));
+    }
+    if (!(stage->to_failure > 0) || part[0]->step > increments || *ended) return BRC_OK;
+    BRC_TRY(go_to_failure(n, part, run, progress));
+    return tell_pause(part[0], increments);
+}
+
+brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_store *resumed)
+{
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
+    brc_static_run *run = NULL;
+    brc_progress *progress = NULL;
+    brc_status status = BRC_OK;
+    double n_bonds = 0;
+    for (int32_t k = 0; k < n; ++k)
+        if (!part[k]->model->statics)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': model %s has no static stages; use a dynamic one",
+                            stage->name, brc_model_name(part[k]->scene->model.kind));
+    if (stage->most_events > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "events"));
+    if (stage->to_failure > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "to_failure"));
+    for (int32_t k = 0; k < n; ++k)
+        n_bonds += (double)part[k]->domain->n_bonds;
+    BRC_TRY_OR(cleanup,
+               brc_progress_create(context, &progress, stage->name, 0, "iterations", n_bonds / n, "bond updates/s"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &run, n, "static stage"));
+    BRC_TRY_OR(cleanup, begin_runs(n, part, run, resumed));
+    if (!resumed) BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
+    status =
+        stage->most_events > 0 ? brc_static_events_run(n, part, run, progress) : run_increments(n, part, run, progress);
+cleanup:
+    brc_progress_finish(&progress);
+    for (int32_t k = 0; k < n; ++k)
+        part[k]->static_run = NULL;
+    for (int32_t k = 0; run && k < n; ++k)
+        free_vectors(&run[k].vectors);
+    brc_memory_free(run);
+    return status;
+}

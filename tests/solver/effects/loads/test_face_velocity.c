@@ -1,0 +1,32 @@
+/* Faces that a stage moves with a velocity go on from where the stage before left them. */
+#include "../../support.h"
+#include <math.h>
+
+/* A pull in uniform stress, where the displacement of a face is that of the cell's linear field, held by a second
+ * stage: the force stays. 1e-6: the tolerance of the static solve. */
+static void faces_go_on_from_where_they_are(void **state)
+{
+    (void)state;
+    bench_case c;
+    double force[3];
+    open_case(&c, (case_options){
+                      .stages =
+                          "  - name: pull\n    solver: {static: {tolerance: 1e-8}}\n"
+                          "    loads:\n      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: "
+                          "x+, x: 1 mm}\n"
+                          "      - face_displacement: {set: y-, y: 0}\n      - face_displacement: {set: z-, z: 0}\n"
+                          "  - name: hold\n    solver: {dynamic: {steps: 3}}\n"
+                          "    loads:\n      - face_velocity: {set: x-, x: 0}\n      - face_velocity: {set: x+, x: 0}\n"
+                          "      - face_displacement: {set: y-, y: 0}\n      - face_displacement: {set: z-, z: 0}\n"});
+    assert_done(&c, brc_simulation_run(c.simulation));
+    assert_done(&c, brc_simulation_reaction(c.simulation, brc_domain_find_set(c.domain, "x+"), force));
+    const double e = 1e-3; /* E 1 Pa: P = (1 + e) times the Green strain */
+    assert_true(fabs(force[0] / ((1 + e) * (e + 0.5 * e * e)) - 1) < 1e-6);
+    close_case(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(faces_go_on_from_where_they_are)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

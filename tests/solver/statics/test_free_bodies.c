@@ -1,0 +1,122 @@
+/* What static stages leave free to move as a whole: which body, which motion, and whether loads push it there. */
+#include "../support.h"
+#include "../../../host/base/log.h"
+#include "../../../host/solver/statics/free_bodies.h"
+#include <string.h>
+
+#define STAGE(loads) "  - name: pull\n    solver: static\n    loads:\n" loads
+
+static const char *told_of(const char *loads, const char *gravity, bool all)
+{
+    bench_case c;
+    open_case(&c, (case_options){.stages = loads,
+                                 .gravity = gravity,
+                                 .shape = "{box: {size: [2 m, 1 m, 1 m]}}",
+                                 .fill = "cells: [4, 2, 2], spread: 0 %",
+                                 .sets = "sets: {low: {elements: {wall: x-}}, high: {elements: {wall: x+}}}\n"});
+    brc_log_set_level(c.context, BRC_LOG_INFO);
+    begin_listening();
+    const brc_status status = brc_free_bodies_tell(c.context, c.scene, c.domain, all);
+    const char *said = heard();
+    assert_int_equal(status, BRC_OK);
+    close_case(&c);
+    return said;
+}
+
+static void expect(const char *said, const char *words)
+{
+    if (!strstr(said, words)) fail_msg("expected '%s', heard '%s'", words, said);
+}
+
+static void a_body_that_is_held_is_not_told_of(void **state)
+{
+    (void)state;
+    assert_string_equal(
+        told_of(STAGE("      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - traction: {set: x+, y: 1 Pa}\n"),
+                NULL, true),
+        "");
+    assert_string_equal(told_of(STAGE("      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: "
+                                      "y-, y: 0}\n      - face_displacement: {set: z-, z: 0}\n"),
+                                NULL, true),
+                        "");
+}
+
+static void motions_that_loads_push_are_warned_of_by_name(void **state)
+{
+    (void)state;
+    expect(told_of(STAGE("      - face_displacement: {set: x-, x: 0, z: 0}\n      - face_displacement: {set: x+, x: "
+                         "0}\n      - traction: {set: x+, y: 1 Pa}\n"),
+                   NULL, false),
+           "warning: stage 'pull': body 'body' is free to move along y, and its loads push it there");
+    expect(told_of(STAGE("      - face_displacement: {set: x-, x: 0}\n      - traction: {set: y+, z: 1 Pa}\n      - "
+                         "traction: {set: y-, z: -1 Pa}\n"),
+                   NULL, false),
+           "warning: stage 'pull': body 'body' is free to move along y, z and to turn about x, and its loads push it "
+           "there"); /* no resultant, but a moment */
+    expect(told_of(STAGE("      - traction: {set: x+, x: 1 Pa}\n"), NULL, false),
+           "along x, y, z and to turn about x, y, z, and its loads");
+    expect(told_of(STAGE("      - face_displacement: {set: x-, x: 0}\n"), "gravity: [0, -10 m/s^2, 0]\n", false),
+           "its loads push it there");
+    expect(
+        told_of(STAGE("      - face_displacement: {set: x-, x: 0, y: 0}\n      - pressure: {set: z-, value: 1 Pa}\n"),
+                NULL, false),
+        "along z");
+    expect(
+        told_of(
+            STAGE("      - element_displacement: {set: low, x: 0, y: 0}\n      - element_force: {set: high, z: 1 N}\n"),
+            NULL, false),
+        "along z");
+}
+
+static void motions_that_no_load_pushes_are_told_where_all_are_asked_for(void **state)
+{
+    (void)state;
+    static const char balanced[] =
+        STAGE("      - face_displacement: {set: x-, x: 0}\n      - face_displacement: {set: x+, x: 1 mm}\n");
+    expect(told_of(balanced, NULL, true),
+           "body 'body' is free to move along y, z and to turn about x; no load pushes it there, and it stays");
+    assert_null(strstr(told_of(balanced, NULL, true), "warning"));
+    assert_string_equal(told_of(balanced, NULL, false), "");
+    assert_string_equal(told_of(STAGE("      - face_displacement: {set: x-, x: 0}\n      - traction: {set: y+, y: 1 "
+                                      "Pa}\n      - traction: {set: y-, y: -1 Pa}\n"),
+                                NULL, false),
+                        "");
+}
+
+static void dynamic_stages_may_move_as_they_like(void **state)
+{
+    (void)state;
+    assert_string_equal(
+        told_of("  - name: go\n    solver: {dynamic: {steps: 1}}\n    loads:\n      - traction: {set: x+, x: 1 Pa}\n",
+                NULL, true),
+        "");
+}
+
+static void motions_aslant_the_axes_are_counted(void **state)
+{
+    (void)state;
+    brc_free_motions free;
+    char text[128];
+    const double corner[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    brc_free_motions_begin(&free, 4, corner);
+    for (int k = 0; k < 3; ++k)
+        brc_free_motions_clamp(&free, k);
+    for (int k = 0; k < 4; ++k)
+        brc_free_motions_hold(&free, corner + 3 * k, 2);
+    free.held[0][0] += 1, free.held[1][1] += 1, free.held[0][1] -= 1, free.held[1][0] -= 1; /* u_x - u_y is held */
+    assert_true(brc_free_motions_find(&free));
+    assert_int_equal(free.n, 1);
+    assert_string_equal(brc_free_motions_text(&free, text, sizeof text), "in 1 way aslant the axes");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_body_that_is_held_is_not_told_of),
+        cmocka_unit_test(motions_that_loads_push_are_warned_of_by_name),
+        cmocka_unit_test(motions_that_no_load_pushes_are_told_where_all_are_asked_for),
+        cmocka_unit_test(dynamic_stages_may_move_as_they_like),
+        cmocka_unit_test(motions_aslant_the_axes_are_counted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
