@@ -1,8 +1,12 @@
 #include "ahead.h"
+#include "../effects/contact/contact.h"
 #include "../effects/fracture/cell_breaks_internal.h"
+#include "../effects/fracture/fracture_internal.h"
+#include "../effects/guard.h"
+#include "../effects/strikers/strikers_internal.h"
+#include "../models/cbm/beam_softening.h"
 #include "../models/dlsm/cell_softening.h"
 #include "../models/dlsm/closed_faces.h"
-#include "../effects/guard.h"
 #include <string.h>
 
 enum { MOST_KEPT = 64 };
@@ -11,8 +15,8 @@ struct brc_ahead {
     brc_state_store store;
     brc_simulation *simulation; /* borrowed */
     brc_buffer *found;          /* [n_rows] marks of the stretch so far */
-    int n;                      /* arrays */
-    brc_buffer *of[MOST_KEPT], *copy[MOST_KEPT];
+    int n, n_copies;            /* arrays of the stretch; copies, some of which may wait for larger arrays */
+    brc_buffer *copy[MOST_KEPT];
     char *numbers; /* of the host, one after another, each list behind its number of rows */
     int64_t used, at;
     int64_t calm;  /* steps since the last break */
@@ -50,22 +54,22 @@ static brc_status count_rows(brc_state_store *store, const char *name, int64_t *
     return BRC_OK;
 }
 
+/* The k-th array of a walk goes to the k-th copy: arrays of lists are made anew as they grow. */
 static brc_status keep_field(brc_state_store *store, brc_buffer *buffer)
 {
     struct brc_ahead *a = ahead_of(store);
-    int k = 0;
-    while (k < a->n && a->of[k] != buffer)
-        ++k;
-    if (store->loading) return brc_buffer_copy(buffer, a->copy[k], brc_buffer_bytes(buffer));
+    const int64_t bytes = brc_buffer_bytes(buffer);
+    const int k = a->n++;
     if (k == MOST_KEPT)
         return BRC_FAIL(a->simulation->context, BRC_INTERNAL, "more than %d arrays are kept for steps ahead",
                         (int)MOST_KEPT);
-    if (k == a->n) {
-        BRC_TRY(
-            brc_buffer_create(a->simulation->device, &a->copy[k], brc_buffer_bytes(buffer), "copies for steps ahead"));
-        a->of[a->n++] = buffer;
+    if (store->loading) return brc_buffer_copy(buffer, a->copy[k], bytes);
+    if (k == a->n_copies) a->copy[a->n_copies++] = NULL;
+    if (!a->copy[k] || brc_buffer_bytes(a->copy[k]) < bytes) {
+        brc_buffer_free(&a->copy[k]);
+        BRC_TRY(brc_buffer_create(a->simulation->device, &a->copy[k], bytes, "copies for steps ahead"));
     }
-    return brc_buffer_copy(a->copy[k], buffer, brc_buffer_bytes(buffer));
+    return brc_buffer_copy(a->copy[k], buffer, bytes);
 }
 
 static brc_status walk(brc_simulation *s, bool loading)
@@ -75,8 +79,14 @@ static brc_status walk(brc_simulation *s, bool loading)
         .self = a, .loading = loading, .numbers = keep_numbers, .count = count_rows, .field = keep_field};
     if (!loading) a->used = 0;
     a->at = 0;
+    a->n = 0;
     BRC_TRY(brc_simulation_walk_motion(s, &a->store));
-    BRC_TRY(brc_closed_faces_store_state(s, &a->store, NULL));
+    if (s->fracture->cells)
+        BRC_TRY(brc_closed_faces_store_state(s, &a->store, NULL));
+    else /* bonds of beams break on the device before anyone knows */
+        BRC_TRY(brc_fracture_store_stretch(s, &a->store));
+    if (s->strikers) BRC_TRY(brc_strikers_store_state(s, &a->store));
+    if (s->contact) BRC_TRY(brc_contact_store_stretch(s, &a->store));
     return brc_guard_store_looks(s, &a->store);
 }
 
@@ -88,16 +98,19 @@ static bool works_beside(const brc_simulation *s)
     return brc_device_get_info(s->device)->kind == BRC_DEVICE_OPENCL;
 }
 
-/* Contact looks for its pairs from the host, softening and noise damping ask in every step. */
+/* Softening and noise damping ask in every step; of beams only contact asks. */
 static bool may(const brc_simulation *s)
 {
-    return s->fracture && s->fracture->cells && !s->contact && !s->strikers && !brc_softening_is_on(s) &&
-           brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise && works_beside(s);
+    return s->fracture && (s->fracture->cells || s->contact) && !brc_softening_is_on(s) &&
+           !brc_beam_softening_is_on(s) && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise &&
+           works_beside(s);
 }
 
 int64_t brc_ahead_steps(const brc_simulation *s, int64_t n)
 {
-    const int64_t calm = s->ahead ? s->ahead->calm : 0, most = calm < BRC_AHEAD_MOST ? calm : BRC_AHEAD_MOST;
+    const int64_t calm = s->ahead ? s->ahead->calm : 0, quiet = brc_contact_quiet_steps(s);
+    int64_t most = calm < BRC_AHEAD_MOST ? calm : BRC_AHEAD_MOST;
+    if (quiet < most) most = quiet; /* the host looks for pairs */
     if (most < BRC_AHEAD_FEWEST || n < 2 || !may(s)) return 0;
     return n < most ? n : most;
 }
@@ -117,7 +130,7 @@ brc_status brc_ahead_end(brc_simulation *s, bool *stands)
 {
     struct brc_ahead *a = s->ahead;
     const brc_cell_breaks *c = s->fracture->cells;
-    const int64_t first = s->step;
+    const int64_t last = s->step;
     double n;
     a->on = false;
     BRC_TRY(brc_vector_sum(s, a->found, s->layout->n_rows, &n));
@@ -126,10 +139,10 @@ brc_status brc_ahead_end(brc_simulation *s, bool *stands)
     BRC_TRY(walk(s, true));
     s->open = a->open;
     a->calm = 0;
-    BRC_TRY(brc_buffer_fill_zero(c->mark));
-    BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
+    if (c) BRC_TRY(brc_buffer_fill_zero(c->mark));
+    if (c) BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
     brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: bonds break in them",
-            (long long)s->step + 1, (long long)first);
+            (long long)s->step + 1, (long long)last);
     return BRC_OK;
 }
 
@@ -152,7 +165,7 @@ void brc_ahead_free(brc_simulation *s)
 {
     struct brc_ahead *a = s->ahead;
     if (!a) return;
-    for (int k = 0; k < a->n; ++k)
+    for (int k = 0; k < a->n_copies; ++k)
         brc_buffer_free(&a->copy[k]);
     brc_buffer_free(&a->found);
     brc_memory_free(a->numbers);

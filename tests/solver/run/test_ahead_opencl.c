@@ -3,7 +3,8 @@
 #include "../../../host/base/log.h"
 #include "../../../host/solver/run/ahead.h"
 #include "../../skip.h"
-#include "../effects/fracture/cells_case.h"
+#include "../effects/contact/contact_case.h"
+#include "../effects/fracture/fracture_case.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -101,12 +102,16 @@ static brc_status look(void *self, brc_simulation *simulation)
     return BRC_OK;
 }
 
-static outcome run(case_options o, bool looked_at)
+/* Cells, or, where `cells` is NULL, beams. */
+static outcome run(const case_options *cells, const fracture_options *beams, bool looked_at)
 {
     bench_case c;
     outcome out = {0};
     const brc_break *events;
-    open_case(&c, o);
+    if (cells)
+        open_case(&c, *cells);
+    else
+        open_fracture(&c, *beams);
     c.scene->output.history_every = 1000; /* no samples, which end batches */
     brc_log_set_level(c.context, BRC_LOG_DEBUG);
     brc_log_set_sink(c.context, count_again, &out.again);
@@ -126,10 +131,9 @@ static outcome run(case_options o, bool looked_at)
     return out;
 }
 
-static void assert_same(case_options o)
+static void assert_same_either_way(const case_options *cells, const fracture_options *beams)
 {
-    o.device = DEVICE;
-    const outcome known = run(o, true), ahead = run(o, false);
+    const outcome known = run(cells, beams, true), ahead = run(cells, beams, false);
     assert_int_equal(known.again, 0);
     assert_true(ahead.again >= 2); /* calm, and a break after it, more than once */
     assert_true(known.n > 20);
@@ -141,6 +145,12 @@ static void assert_same(case_options o)
     free(known.position);
     free(ahead.events);
     free(ahead.position);
+}
+
+static void assert_same(case_options o)
+{
+    o.device = DEVICE;
+    assert_same_either_way(&o, NULL);
 }
 
 static void steps_ahead_have_the_bits_of_steps_that_are_known(void **state)
@@ -159,11 +169,35 @@ static void steps_ahead_have_the_bits_of_steps_that_are_known(void **state)
                                          "      - element_velocity: {set: right, x: 1e-5 m/s}\n"});
 }
 
+/* Surfaces remember friction and impacts, strikers where they are. */
+static void so_they_have_where_surfaces_touch(void **state)
+{
+    (void)state;
+    assert_same((case_options){
+        .stages = PULL(""),
+        .materials = PULL_STRENGTH,
+        .sets = CONTACT_KEYS,
+        .gravity =
+            "strikers:\n  ball: {shape: {sphere: {radius: 0.25 m, centre: [0.5 m, 0.45 m, 1.2505 m]}}, facets: 24, "
+            "material: stone, motion: {free: {velocity: [0, 1e-4 m/s, -1e-3 m/s]}}}\n"});
+    const fracture_options beams = {
+        .device = DEVICE,
+        .strength = "strength: {tension: 2e-4 Pa, scatter: {weibull: {modulus: 8}}}",
+        .fracture = "{criterion: {virial-principal: {level: 1}}}",
+        .stages =
+            "interactions: {contact: {friction: 0.3, restitution: 0.7}}\nsets:\n  left: {elements: {wall: "
+            "x-}}\n  right: {elements: {wall: x+}}\nstages:\n  - name: pull\n    solver: {dynamic: {steps: 900}}\n"
+            "    loads:\n      - element_displacement: {set: left, x: 0}\n      - element_velocity: {set: right, x: "
+            "1e-5 m/s}\n"};
+    assert_same_either_way(NULL, &beams);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_steps_are_few_launches_and_nobody_waits),
                                        cmocka_unit_test(where_nothing_breaks_nobody_waits_but_at_the_end_of_a_stretch),
-                                       cmocka_unit_test(steps_ahead_have_the_bits_of_steps_that_are_known)};
+                                       cmocka_unit_test(steps_ahead_have_the_bits_of_steps_that_are_known),
+                                       cmocka_unit_test(so_they_have_where_surfaces_touch)};
     if (!device_is_there(DEVICE)) return test_skip("there is no such device with double precision");
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
 #include "contact_internal.h"
+#include "../../run/ahead.h"
 #include "../fracture/cell_breaks_internal.h"
 #include "../strikers/strikers_internal.h"
 #include "touching.h"
@@ -148,6 +149,12 @@ brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger)
                     brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
 }
 
+int64_t brc_contact_quiet_steps(const brc_simulation *s)
+{
+    if (!s->contact) return INT64_MAX;
+    return s->contact->due ? 0 : s->contact->quiet;
+}
+
 brc_status brc_contact_follow(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
@@ -248,7 +255,7 @@ static brc_status beams_broke(brc_simulation *s, bool *out)
 {
     double groups;
     BRC_TRY(BRC_RUN(s->contact->pass.marked, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))}));
-    BRC_TRY(brc_vector_sum(s, s->kinetic, s->n_groups, &groups));
+    BRC_TRY(brc_ahead_count(s, s->kinetic, s->n_groups, &groups));
     *out = groups > 0;
     return BRC_OK;
 }

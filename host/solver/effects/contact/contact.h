@@ -20,6 +20,8 @@ brc_status brc_contact_restart(brc_simulation *s);
 /* The forces of the start of a stage are there, with this ledger: BRC_BAD_INPUT if the static stage before it has
  * pressed surfaces into each other; told if they overlap as the run begins. */
 brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger);
+/* Steps in which the host will not look for pairs; INT64_MAX without contact. */
+int64_t brc_contact_quiet_steps(const brc_simulation *s);
 /* Elements moved by a step: look again where they moved far enough. */
 brc_status brc_contact_follow(brc_simulation *s);
 /* dlsm: the rotations of rigid cells go into the gradients. */
@@ -72,5 +74,7 @@ void brc_contact_check_step(const brc_simulation *s, const char *stage, double t
 
 /* What surfaces remember (state_store.h): who is exposed and rigid, the pairs with their friction, what was lost. */
 brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store);
+/* What steps change in which nobody looks for pairs, to a store of fields. */
+brc_status brc_contact_store_stretch(brc_simulation *s, brc_state_store *store);
 
 #endif

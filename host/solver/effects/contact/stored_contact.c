@@ -89,15 +89,29 @@ cleanup:
     return status;
 }
 
+/* Of dlsm the look at how far surfaces have moved reads the gradients of the step before. */
+static brc_status walk_arrays(brc_simulation *s, brc_state_store *store)
+{
+    brc_contact_state *c = s->contact;
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_contact_fields, .owner = c, .n = c->n_pieces}));
+    if (!c->affine) return BRC_OK;
+    if (store->field) return store->field(store, s->gradient);
+    return brc_store_entry(s, store,
+                           &(brc_state_entry){"contact.gradient", s->gradient, BRC_ROWS, BRC_OF_COEFF, 9, NULL});
+}
+
+brc_status brc_contact_store_stretch(brc_simulation *s, brc_state_store *store)
+{
+    brc_contact_state *c = s->contact;
+    BRC_TRY(walk_arrays(s, store));
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_contact_pair_fields, .owner = &c->now}));
+    return brc_store_integer(store, "contact.quiet", &c->quiet);
+}
+
 brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
 {
     brc_contact_state *c = s->contact;
-    const brc_kept_fields kept = {.table = &brc_contact_fields, .owner = c, .n = c->n_pieces};
-    BRC_TRY(brc_store_fields(s, store, &kept));
-    /* of dlsm the look at how far surfaces have moved reads the gradients of the step before */
-    if (c->affine)
-        BRC_TRY(brc_store_entry(s, store,
-                                &(brc_state_entry){"contact.gradient", s->gradient, BRC_ROWS, BRC_OF_COEFF, 9, NULL}));
+    BRC_TRY(walk_arrays(s, store));
     BRC_TRY(brc_store_double(store, "contact.skin", &c->skin));
     if (store->loading) {
         BRC_TRY(brc_contact_expose(s)); /* what is broken is old */

@@ -72,6 +72,8 @@ brc_status brc_fracture_step(brc_simulation *s, double half_kick);
 brc_status brc_fracture_lost(brc_simulation *s, double *out);
 /* What broke, and what that changed. */
 brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store);
+/* What breaking beams change from step to step, to a store of fields. */
+brc_status brc_fracture_store_stretch(brc_simulation *s, brc_state_store *store);
 /* Elements, ascending, of ascending half-edges; out->id is the caller's (brc_memory_free). */
 brc_status brc_fracture_owners(brc_simulation *s, const brc_chosen *half_edges, brc_chosen *out);
 /* Unbroken half-edges of the domain [n_half_edges] (1, else 0); *out is the caller's (brc_memory_free). */

@@ -118,12 +118,10 @@ cleanup:
 
 /* Arrays of both models and of the criterion. A broken beam has no length, and leaves the volume that an element's
  * stress is averaged over; records of beams follow from the forces but for what bonds that broke after them carried. */
-static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
+static brc_status walk_tables(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds,
+                              const brc_chosen *elements)
 {
     const brc_breaking *f = s->fracture;
-    brc_chosen elements = {0};
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
     const struct {
         const brc_field_table *table;
         const void *owner;
@@ -134,14 +132,29 @@ static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const b
                   {&brc_cell_break_fields, f->cells, f->cells != NULL}};
     for (size_t k = 0; k < sizeof walked / sizeof *walked; ++k)
         if (walked[k].there)
-            BRC_TRY_OR(cleanup, brc_store_fields(s, store,
-                                                 &(brc_kept_fields){.table = walked[k].table,
-                                                                    .owner = walked[k].owner,
-                                                                    .bonds = bonds,
-                                                                    .elements = &elements}));
+            BRC_TRY(brc_store_fields(
+                s, store,
+                &(brc_kept_fields){
+                    .table = walked[k].table, .owner = walked[k].owner, .bonds = bonds, .elements = elements}));
+    return BRC_OK;
+}
+
+static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
+{
+    brc_chosen elements = {0};
+    brc_status status = BRC_OK;
+    BRC_TRY_OR(cleanup, brc_fracture_owners(s, bonds, &elements));
+    status = walk_tables(s, store, bonds, &elements);
 cleanup:
     brc_memory_free(elements.id);
     return status;
+}
+
+brc_status brc_fracture_store_stretch(brc_simulation *s, brc_state_store *store)
+{
+    BRC_TRY(walk_tables(s, store, NULL, NULL));
+    BRC_TRY(store->field(store, s->neighbour));
+    return brc_beam_closure_store_state(s, store);
 }
 
 brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
