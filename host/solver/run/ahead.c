@@ -4,6 +4,7 @@
 #include "../effects/fracture/fracture_internal.h"
 #include "../effects/guard.h"
 #include "../effects/strikers/strikers_internal.h"
+#include "../models/cbm/beam_closure.h"
 #include "../models/cbm/beam_softening.h"
 #include "../models/dlsm/cell_softening.h"
 #include "../models/dlsm/closed_faces.h"
@@ -20,6 +21,9 @@ struct brc_ahead {
     char *numbers; /* of the host, one after another, each list behind its number of rows */
     int64_t used, at;
     int64_t calm;  /* steps since the last break */
+    int64_t first; /* step before the stretch */
+    double broken; /* half-edges of beams that were broken as it began */
+    bool broke;    /* some beam is broken */
     bool on, open; /* a stretch is being taken; the simulation's `open` at its start */
 };
 
@@ -98,31 +102,75 @@ static bool works_beside(const brc_simulation *s)
     return brc_device_get_info(s->device)->kind == BRC_DEVICE_OPENCL;
 }
 
-/* Softening and noise damping ask in every step; of beams only contact asks. */
+static bool is_of_beams(const brc_simulation *s)
+{
+    return s->fracture && !s->fracture->cells;
+}
+
+/* Softening and noise damping ask in every step. Without contact beams ask nobody, but broken ones that bear cost
+ * passes of their own, which a stretch before the first break leaves out. */
 static bool may(const brc_simulation *s)
 {
-    return s->fracture && (s->fracture->cells || s->contact) && !brc_softening_is_on(s) &&
-           !brc_beam_softening_is_on(s) && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise &&
-           works_beside(s);
+    const bool worth = s->fracture && (!is_of_beams(s) || s->contact ||
+                                       (brc_wants_beam_closure(&s->wants) && !(s->ahead && s->ahead->broke)));
+    return worth && !brc_softening_is_on(s) && !brc_beam_softening_is_on(s) &&
+           brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise && works_beside(s);
 }
 
 int64_t brc_ahead_steps(const brc_simulation *s, int64_t n)
 {
-    const int64_t calm = s->ahead ? s->ahead->calm : 0, quiet = brc_contact_quiet_steps(s);
+    const bool asks = s->fracture && (s->fracture->cells || s->contact);
+    const int64_t calm = !asks ? BRC_AHEAD_MOST : s->ahead ? s->ahead->calm : 0, quiet = brc_contact_quiet_steps(s);
     int64_t most = calm < BRC_AHEAD_MOST ? calm : BRC_AHEAD_MOST;
     if (quiet < most) most = quiet; /* the host looks for pairs */
     if (most < BRC_AHEAD_FEWEST || n < 2 || !may(s)) return 0;
     return n < most ? n : most;
 }
 
+bool brc_ahead_is_on(const brc_simulation *s)
+{
+    return s->ahead && s->ahead->on;
+}
+bool brc_ahead_is_whole(const brc_simulation *s)
+{
+    return brc_ahead_is_on(s) && is_of_beams(s) && !s->ahead->broke;
+}
+
+static brc_status ahead_made(brc_simulation *s, struct brc_ahead **out)
+{
+    if (!s->ahead) {
+        BRC_TRY(BRC_ALLOCATE(s->context, &s->ahead, 1, "steps ahead"));
+        s->ahead->simulation = s;
+    }
+    *out = s->ahead;
+    return BRC_OK;
+}
+
 brc_status brc_ahead_begin(brc_simulation *s)
 {
-    struct brc_ahead *a = s->ahead;
-    if (!a->found) BRC_TRY(brc_new_state(s, &a->found, s->layout->n_rows, "marks of steps ahead"));
-    BRC_TRY(brc_buffer_fill_zero(a->found));
+    struct brc_ahead *a;
+    BRC_TRY(ahead_made(s, &a));
+    if (is_of_beams(s)) {
+        BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, &a->broken));
+        a->broke = a->broken > 0;
+    } else {
+        if (!a->found) BRC_TRY(brc_new_state(s, &a->found, s->layout->n_rows, "marks of steps ahead"));
+        BRC_TRY(brc_buffer_fill_zero(a->found));
+    }
     BRC_TRY(walk(s, false));
+    a->first = s->step;
     a->open = s->open;
     a->on = true;
+    return BRC_OK;
+}
+
+/* Bonds that broke, or were to break, in the stretch. */
+static brc_status count_stretch(brc_simulation *s, double *n)
+{
+    const struct brc_ahead *a = s->ahead;
+    if (!is_of_beams(s)) return brc_vector_sum(s, a->found, s->layout->n_rows, n);
+    BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, n));
+    *n -= a->broken;
     return BRC_OK;
 }
 
@@ -133,12 +181,14 @@ brc_status brc_ahead_end(brc_simulation *s, bool *stands)
     const int64_t last = s->step;
     double n;
     a->on = false;
-    BRC_TRY(brc_vector_sum(s, a->found, s->layout->n_rows, &n));
+    BRC_TRY(count_stretch(s, &n));
     *stands = !(n > 0);
+    if (*stands && !c) a->calm += last - a->first;
     if (*stands) return BRC_OK;
     BRC_TRY(walk(s, true));
     s->open = a->open;
     a->calm = 0;
+    a->broke = true;
     if (c) BRC_TRY(brc_buffer_fill_zero(c->mark));
     if (c) BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
     brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: bonds break in them",
@@ -148,11 +198,8 @@ brc_status brc_ahead_end(brc_simulation *s, bool *stands)
 
 brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, double *n)
 {
-    if (!s->ahead) {
-        BRC_TRY(BRC_ALLOCATE(s->context, &s->ahead, 1, "steps ahead"));
-        s->ahead->simulation = s;
-    }
-    struct brc_ahead *a = s->ahead;
+    struct brc_ahead *a;
+    BRC_TRY(ahead_made(s, &a));
     a->calm += 1;
     *n = 0;
     if (a->on) return brc_vector_axpy(s, count, 1, found, a->found);

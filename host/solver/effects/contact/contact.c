@@ -254,6 +254,8 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
 static brc_status beams_broke(brc_simulation *s, bool *out)
 {
     double groups;
+    *out = false;
+    if (brc_ahead_is_on(s)) return BRC_OK;
     BRC_TRY(BRC_RUN(s->contact->pass.marked, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))}));
     BRC_TRY(brc_ahead_count(s, s->kinetic, s->n_groups, &groups));
     *out = groups > 0;

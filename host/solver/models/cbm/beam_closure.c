@@ -1,4 +1,5 @@
 #include "beam_closure.h"
+#include "../../run/ahead.h"
 #include "beam_softening.h"
 
 enum { LEAN = 7 }; /* kernels/beam_closure.cl */
@@ -44,7 +45,7 @@ static bool bears_now(const brc_simulation *s)
 }
 static bool acts(const brc_simulation *s)
 {
-    return closure_of(s) && bears_now(s);
+    return closure_of(s) && bears_now(s) && !brc_ahead_is_whole(s);
 }
 
 /* Rows of the neighbours over all bonds there ever were, and the other entry of each; entries without one point
@@ -141,7 +142,7 @@ brc_status brc_beam_closure_move(brc_simulation *s)
 brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half_kick)
 {
     const beam_closure *f = closure_of(s);
-    if (!f) return BRC_OK;
+    if (!f || brc_ahead_is_whole(s)) return BRC_OK;
     brc_buffer *open = NULL, *crack = NULL;
     brc_beam_softening_cracks(s, &open, &crack);
     return BRC_RUN(f->begin, s->n_groups, {"step", BRC_INT(moment)}, {"closure", BRC_INT(bears_now(s) ? 1 : 0)},
