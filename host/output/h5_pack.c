@@ -48,7 +48,7 @@ static int64_t pack(const packing *p, int64_t k, unsigned char *scratch, unsigne
     z_stream z = {
         .next_in = scratch, .avail_in = (uInt)(p->block * p->width), .next_out = out, .avail_out = (uInt)room};
     shuffle(p, k, scratch);
-    if (deflateInit2(&z, 1, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_RLE) != Z_OK) return 0;
+    if (deflateInit2(&z, 1, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) return 0;
     const bool done = deflate(&z, Z_FINISH) == Z_STREAM_END;
     const int64_t bytes = (int64_t)z.total_out;
     deflateEnd(&z);
