@@ -41,8 +41,6 @@ static brc_status open_file(brc_context *context, const char *path, bool in_memo
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     H5Pset_obj_track_times(creation, false);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    H5Pset_meta_block_size(access, 0); /* no room kept for what may come: 1 kB less */
-    H5Pset_small_data_block_size(access, 0);
     if (!in_memory)
         H5Pset_libver_bounds(access, H5F_LIBVER_V110,
                              H5F_LIBVER_V110); /* a packed dataset of one block needs no index: 2 kB less; an image says
