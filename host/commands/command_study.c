@@ -81,8 +81,10 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         status = run_and_tell(context, study, &request, path);
     else {
         BRC_TRY_OR(cleanup, brc_study_write_slurm(context, study, path, &request));
-        printf("%d runs: sbatch --wait %s/slurm.sh; breccia study %s -o %s --collect\n", study->n_runs, request.folder,
-               path, request.folder);
+        printf("%d runs: sbatch --wait %s/slurm.sh; breccia study %s -o %s%s%s%s%s --collect\n", study->n_runs,
+               request.folder, path, request.folder, request.device ? " --device " : "",
+               request.device ? request.device : "", request.precision ? " --precision " : "",
+               request.precision ? request.precision : "");
     }
 cleanup:
     brc_study_free(&study);

@@ -1,5 +1,5 @@
-"""The wheel of this build in a virtual environment that has nothing else of breccia: a run, a table of pandas, a cut drawn by pyvista, views that share memory; and VTK's newest release, which comes with
-pyvista, on frames of examples (tests/commands/test_frames.py)."""
+"""The wheel of this build in a virtual environment that has nothing else of breccia: a run, a table of pandas, a cut drawn by pyvista, views that share memory; types by
+mypy --strict; and VTK's newest release, which comes with pyvista, on frames of examples (tests/commands/test_frames.py)."""
 import glob
 import os
 import subprocess
@@ -30,7 +30,7 @@ def prepare():
     if subprocess.run([sys.executable, "-m", "venv", HOLDER], capture_output=True, check=False).returncode != 0:
         skipped("python3 -m venv fails; apt-get install python3-venv")
     pip = (PYTHON, "-m", "pip", "-q", "--disable-pip-version-check")
-    ran = run(*pip, "install", "setuptools", "wheel", "pytest")
+    ran = run(*pip, "install", "setuptools", "wheel", "pytest", "mypy", "pandas-stubs")
     if ran.returncode != 0:
         skipped("PyPI cannot be reached: " + (ran.stderr.strip().splitlines() or ["no message"])[-1])
     for old in glob.glob(os.path.join(HOLDER, "breccia-*.whl")):
@@ -50,5 +50,6 @@ print(prepare(), flush=True)
 own = {key: value for key, value in os.environ.items() if key not in ("BRECCIA_LIBRARY", "BRECCIA_PROGRAM", "PYTHONPATH")}
 tests = os.path.join(SOURCE, "python", "tests")
 failed = subprocess.run([PYTHON, "-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", *(os.path.join(tests, name) for name in TESTS)], env=own, cwd=HOLDER).returncode
+failed |= subprocess.run([PYTHON, "-m", "mypy", "--strict", "--cache-dir", os.devnull, os.path.join(SOURCE, "python", "src")], cwd=HOLDER).returncode
 failed |= subprocess.run([PYTHON, "-B", os.path.join(SOURCE, "tests", "commands", "test_frames.py")], cwd=HOLDER).returncode
 sys.exit(1 if failed else 0)
