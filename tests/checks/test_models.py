@@ -30,8 +30,7 @@ NAMES = {
 INCLUDES = {
     "host/solver/effects/fracture/breaks.c", "host/solver/effects/fracture/cell_breaks.c", "host/solver/effects/fracture/fracture.c",
     "host/solver/effects/fracture/fracture_bound.c", "host/solver/effects/fracture/stored_breaks.c", "host/solver/models/dlsm/cell_softening.c",
-    "host/solver/run/ahead.c", "host/solver/run/dynamics.c", "host/solver/run/effects.c", "host/solver/run/ledger.c",
-    "host/solver/run/simulation.c", "host/solver/run/state.c",
+    "host/solver/run/ahead.c",
 }
 
 

@@ -113,17 +113,16 @@ static void what_contact_and_a_stage_add_is_near_the_plan(void **state)
 static void tables_are_sound(void **state)
 {
     (void)state;
-    int n;
-    const brc_field_table *const *tables = brc_field_tables(&n);
-    for (int t = 0; t < n; ++t)
-        for (int i = 0; i < tables[t]->n; ++i) {
-            const brc_field_row *a = &tables[t]->fields[i];
+    const brc_field_table *table;
+    for (int t = 0; (table = brc_field_table_at(t)); ++t)
+        for (int i = 0; i < table->n; ++i) {
+            const brc_field_row *a = &table->fields[i];
             assert_true(a->name[0] && a->what[0] && a->width > 0);
             for (int j = 0; j < i; ++j) {
-                const brc_field_row *b = &tables[t]->fields[j];
+                const brc_field_row *b = &table->fields[j];
                 if (a->at != b->at && strcmp(a->name, b->name) != 0) continue;
                 if (!a->wanted || !b->wanted || a->wanted == b->wanted)
-                    fail_msg("%s: '%s' and '%s' are in one place", tables[t]->owner, a->name, b->name);
+                    fail_msg("%s: '%s' and '%s' are in one place", table->owner, a->name, b->name);
             }
         }
 }

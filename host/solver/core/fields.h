@@ -116,10 +116,10 @@ void brc_fields_free(const brc_field_table *table, void *owner);
 /* The array of a field; NULL: not there. */
 brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner);
 
-/* ---- all tables (field_tables.c) ---- */
+/* ---- all tables (../run/field_tables.c) ---- */
 /* Bytes of all fields of a life. */
 int64_t brc_fields_planned(const brc_wants *wants, brc_field_life life);
-/* All tables, for listings and tests. */
-const brc_field_table *const *brc_field_tables(int *n);
+/* The k-th of all tables; NULL: there are no more. */
+const brc_field_table *brc_field_table_at(int k);
 
 #endif

@@ -151,9 +151,6 @@ static brc_status upload_masses(brc_simulation *s)
     for (int64_t e = 0; e < d->n_elements; ++e)
         values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
     BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->mass, values, 1, 1));
-    if (s->scene->has_gravity) { /* padding has a mass to be divided by; falling, it would have an energy of its own */
-        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->weight, values, 1, 0));
-    }
     if (s->volume) BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
     if (s->inertia) {
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
@@ -222,10 +219,6 @@ static bool many_beams(const brc_wants *w)
 {
     return w->many_materials && brc_wants_spheres(w);
 }
-static bool gravity(const brc_wants *w)
-{
-    return w->scene->has_gravity;
-}
 
 #define AT(member) BRC_FIELD_AT(brc_simulation, member)
 static const brc_field_row rows[] = {
@@ -233,7 +226,6 @@ static const brc_field_row rows[] = {
     {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-", BRC_NOT_KEPT},
     {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-", BRC_NOT_KEPT},
     {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
-    {"weight", brc_each_row, 1, BRC_FIELD_STATE, gravity, AT(weight), "masses in gravity", "kg", BRC_NOT_KEPT},
     {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_rigid_cells, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
     {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2",
      BRC_NOT_KEPT},

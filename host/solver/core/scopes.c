@@ -163,7 +163,6 @@ brc_status brc_run_passes_make(brc_simulation *s)
         {&p->advance, "advance", "kick drift", false},
         {&p->advance_rotation, "advance_rotation", "kick drift extra", !turns},
         {&p->divide_by_mass, "divide_by_mass", "mass vector", false},
-        {&p->damp_mass, "damp_mass", "factor lost", false},
         {&p->advance_tchamwa, "advance_tchamwa", "dt phi lost", false},
         {&p->numerical_close, "numerical_close", "lost", false},
     };
@@ -171,8 +170,5 @@ brc_status brc_run_passes_make(brc_simulation *s)
     const brc_pass_wanted of_sums[] = {{&p->kinetic_energy, "kinetic_energy", "velocity", false},
                                        {&p->add_spin_energy, "add_spin_energy", "spin", !turns}};
     BRC_TRY(BRC_PASSES_MAKE(s, &sums, of_sums));
-    static const brc_value_row weighs[] = {{"mass", BRC_VALUE_BUFFER, OF_RUN(weight)}};
-    const brc_scope gravity = {.owner = "gravity", .base = s, BRC_VALUES(weighs), .outer = &request};
-    BRC_TRY(BRC_PASSES(s, &gravity, {&p->gravity, "gravity", NULL, !s->scene->has_gravity}));
     return make_load_passes(s, &run, &request);
 }

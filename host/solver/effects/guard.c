@@ -45,7 +45,7 @@ brc_guard_report brc_simulation_guard_report(const brc_simulation *s)
     return s->guard ? s->guard->report : (brc_guard_report){0};
 }
 
-void brc_guard_free(brc_simulation *s)
+static void release(brc_simulation *s)
 {
     if (!s->guard) return;
     brc_fields_free(&brc_guard_fields, s->guard);
@@ -238,3 +238,7 @@ brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger)
     return stop(s, several, what, element, -1,
                 isfinite(ledger->total) && ledger->total <= runaway * put_in ? ledger->closure : 0);
 }
+
+static const brc_hooked hooked[] = {{.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_CHECKS, .plain = brc_guard_step}};
+const brc_effect brc_guard_effect = {
+    .fields = (const brc_field_table *const[]){&brc_guard_fields, NULL}, .free = release, BRC_HOOKED(hooked)};

@@ -19,7 +19,6 @@ brc_status brc_guard_vouch(brc_simulation *simulation, bool several);
 
 /* Once the stage has its state: limits of this stage, and nothing found. */
 brc_status brc_guard_begin_stage(brc_simulation *s);
-void brc_guard_free(brc_simulation *s);
 /* After a step: enqueues a look at the elements where one is due. Waits for nothing. */
 brc_status brc_guard_step(brc_simulation *s);
 /* Steps from `step` of the stage to the next reading. */

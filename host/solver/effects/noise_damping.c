@@ -1,4 +1,5 @@
 #include "noise_damping.h"
+#include "effect.h"
 #include <math.h>
 
 /* Velocity Verlet keeps v.M v + u.(K - dt^2 K M^-1 K / 4) u at whole steps, so a contraction of v there can only take
@@ -48,15 +49,14 @@ static brc_status make_passes(brc_simulation *s, struct brc_noise *d)
     return BRC_PASSES_MAKE(s, &noise, wanted);
 }
 
-brc_status brc_noise_create(brc_simulation *s)
+static brc_status create(brc_simulation *s)
 {
-    if (!s->wants.noise) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->noise, 1, "noise damping"));
     BRC_TRY(make_passes(s, s->noise));
     return brc_fields_create(s->device, &brc_noise_fields, &s->wants, s->noise);
 }
 
-void brc_noise_free(brc_simulation *s)
+static void release(brc_simulation *s)
 {
     if (!s->noise) return;
     brc_fields_free(&brc_noise_fields, s->noise);
@@ -64,22 +64,24 @@ void brc_noise_free(brc_simulation *s)
     s->noise = NULL;
 }
 
-void brc_noise_begin_stage(brc_simulation *s)
+/* Once the stage has its time step: how often, and how much. */
+static brc_status enter(brc_simulation *s)
 {
-    if (!s->noise) return;
     const brc_stage *stage = brc_current_stage(s);
     const double dt = s->time_step.value, critical = s->time_step.critical > 0 ? s->time_step.critical : dt,
                  z = stage->noise_damping;
     s->noise->every = 0;
-    if (!asks(stage) || !(dt > 0)) return;
+    if (!asks(stage) || !(dt > 0)) return BRC_OK;
     const double share = 4 * z * dt / critical; /* z t_c dt w_c^2, w_c = 2 / t_c */
     s->noise->every = (int64_t)fmin(MOST_STEPS, fmax(1, floor(LARGEST_SHARE / share)));
     s->noise->factor = z * critical * dt * (double)s->noise->every;
+    return BRC_OK;
 }
 
-bool brc_noise_is_due(const brc_simulation *s)
+/* At the end of the step just done: depends on the step alone. */
+static bool due(const brc_simulation *s)
 {
-    return s->noise && s->noise->every > 0 && s->step % s->noise->every == 0;
+    return s->noise->every > 0 && s->step % s->noise->every == 0;
 }
 
 brc_status brc_noise_damp(brc_simulation *s)
@@ -92,3 +94,12 @@ brc_status brc_noise_damp(brc_simulation *s)
     BRC_TRY(brc_loads_zero_imposed(s, d->force));
     return brc_pass_run(d->damp, n);
 }
+
+static const brc_hooked hooked[] = {{.hook = BRC_HOOK_ENTERED, .plain = enter},
+                                    {.hook = BRC_HOOK_WHOLE, .plain = brc_noise_damp, .due = due}};
+const brc_effect brc_noise_damping_effect = {.name = "noise damping",
+                                             .in = noise,
+                                             .fields = (const brc_field_table *const[]){&brc_noise_fields, NULL},
+                                             .create = create,
+                                             .free = release,
+                                             BRC_HOOKED(hooked)};

@@ -22,14 +22,6 @@ struct brc_noise {
     bool never;     /* false: no loads on faces, and the linear law */
 };
 
-/* Arrays, where a stage asks for it. BRC_BAD_INPUT: a model other than dlsm, or softening faces, whose opening is no
- * noise. */
-brc_status brc_noise_create(brc_simulation *s);
-void brc_noise_free(brc_simulation *s);
-/* Once the stage has its time step: how often, and how much. */
-void brc_noise_begin_stage(brc_simulation *s);
-/* Is it due at the end of the step just done? Depends on the step alone. */
-bool brc_noise_is_due(const brc_simulation *s);
 /* Damp velocities of whole steps; what they lose is booked as damping. */
 brc_status brc_noise_damp(brc_simulation *s);
 

@@ -13,6 +13,8 @@ struct brc_rings;
 struct brc_buffer;
 struct brc_solve_vectors;
 struct brc_progress;
+struct brc_hooked;
+struct brc_field_table;
 
 /* How contact sees the surface of an element: as kernels number it (contact_body.h). */
 typedef enum brc_surface { BRC_SURFACE_SPHERE, BRC_SURFACE_AFFINE, BRC_SURFACE_RIGID } brc_surface;
@@ -127,6 +129,10 @@ typedef struct brc_bond_model {
     brc_status (*break_bonds)(struct brc_simulation *s, double half_kick);
     brc_status (*limits)(struct brc_simulation *s, const brc_limit_case *of, double limit[3]);
     const brc_model_breaking *breaking; /* of cells; NULL: of spheres */
+
+    const struct brc_field_table *const *fields; /* tables of its own, then NULL; NULL: none */
+    int n_hooked;
+    const struct brc_hooked *hooked; /* what it does beside its forces (../effects/effect.h) */
 } brc_bond_model;
 
 /* Whether equilibrium has rotations as unknowns. */

@@ -1,16 +1,10 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
 #include "ahead.h"
-#include "../models/cbm/beam_closure.h"
-#include "../models/cbm/beam_softening.h"
-#include "../models/dlsm/cell_softening.h"
-#include "../effects/contact/contact.h"
-#include "../effects/loads/element_loads.h"
-#include "../effects/fracture/fracture_internal.h"
+#include "../effects/fracture/fracture.h"
 #include "../effects/guard.h"
 #include "look.h"
-#include "../effects/noise_damping.h"
+#include "simulation_internal.h"
 #include "stage_end.h"
-#include "../effects/strikers/strikers_internal.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -19,15 +13,24 @@ enum { SAMPLES = 500, BATCH = 256 };
  * something is judged by it. */
 enum { LEDGER_APART = 128 };
 
+/* Bodies that effects move, and rotations. */
+static brc_status turn(brc_simulation *s, const brc_occasion *now)
+{
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_ADVANCE, now));
+    if (!s->model->turns) return BRC_OK;
+    return BRC_RUN(s->pass.advance_rotation, s->layout->n_rows, {"kick", BRC_STATE(now->kick)},
+                   {"drift", BRC_STATE(now->drift)}, {"extra", BRC_STATE(now->extra * now->drift)});
+}
+
 static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
 {
-    const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)}));
-    if (s->strikers) BRC_TRY(brc_strikers_advance(s, kick, drift, 0, false));
-    BRC_TRY(brc_contact_turn(s, kick, drift, 0));
-    if (!s->model->turns) return BRC_OK;
-    return BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)},
-                   {"extra", BRC_STATE(0)});
+    BRC_TRY(BRC_RUN(s->pass.advance, s->layout->n_rows, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)}));
+    return turn(s, &(brc_occasion){.kick = kick, .drift = drift});
+}
+
+static brc_status open_step(brc_simulation *s, double dt)
+{
+    return brc_hook_run(s, BRC_HOOK_OPEN_STEP, &(brc_occasion){.t = s->time, .until = (double)(s->step + 1) * dt});
 }
 
 /* Positions and forces at the end of the step whose motion has just been done. */
@@ -36,77 +39,48 @@ static brc_status close_step(brc_simulation *s, double dt)
     s->step += 1;
     s->total_steps += 1;
     s->time = (double)s->step * dt;
-    BRC_TRY(brc_loads_prescribe(s, s->time));
-    if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
-    if (s->contact) brc_phase_within(s, BRC_PHASE_SEARCH);
-    BRC_TRY(brc_contact_follow(s));
-    if (s->fracture) brc_phase_within(s, BRC_PHASE_FRACTURE);
-    BRC_TRY(brc_softening_move(s));
-    BRC_TRY(brc_beam_softening_move(s));
-    BRC_TRY(brc_beam_closure_move(s));
-    brc_phase_within(s, BRC_PHASE_MOTION);
-    BRC_TRY(brc_guard_step(s));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_PLACE, &(brc_occasion){.t = s->time}));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_MOVED, NULL));
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FORCES);
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
     brc_phase_within(s, before);
     return BRC_OK;
 }
 
-static brc_status break_bonds(brc_simulation *s, double half_kick)
+static brc_status verlet_step(brc_simulation *s, double dt, double kick)
 {
-    if (!s->fracture) return BRC_OK;
-    const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FRACTURE);
-    BRC_TRY(brc_fracture_step(s, half_kick));
-    brc_phase_within(s, before);
-    return BRC_OK;
-}
-
-/* Of what is free to move: prescribed velocities are set anew at the end of the step, and what drags on them is no part
- * of the work of their load. */
-static brc_status drag(brc_simulation *s, const brc_stage *stage, double dt)
-{
-    const int32_t n = s->layout->n_rows;
-    BRC_TRY(brc_loads_zero_imposed(s, s->velocity));
-    return BRC_RUN(s->pass.damp_mass, n, {"factor", BRC_STATE(exp(-stage->mass_damping * dt))},
-                   {"lost", BRC_BUF(s->lost_damping)});
-}
-
-static brc_status verlet_step(brc_simulation *s, const brc_stage *stage, double dt, double kick)
-{
-    BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
-    if (stage->mass_damping > 0) { /* the drag acts in the middle of the drift: second order */
+    BRC_TRY(open_step(s, dt));
+    if (brc_hook_is_due(s, BRC_HOOK_DRAG)) { /* in the middle of the drift: second order */
         BRC_TRY(kick_and_drift(s, kick, 0.5 * dt));
-        BRC_TRY(drag(s, stage, dt));
+        BRC_TRY(brc_hook_run(s, BRC_HOOK_DRAG, &(brc_occasion){.dt = dt}));
         BRC_TRY(kick_and_drift(s, 0, 0.5 * dt));
     } else {
         BRC_TRY(kick_and_drift(s, kick, dt));
     }
     BRC_TRY(close_step(s, dt));
-    return break_bonds(s, 0.5 * dt);
+    return brc_hook_run(s, BRC_HOOK_BREAK, &(brc_occasion){.half_kick = 0.5 * dt});
 }
 
-static brc_status tchamwa_step(brc_simulation *s, const brc_stage *stage, double dt)
+static brc_status tchamwa_step(brc_simulation *s, double phi, double dt)
 {
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(brc_turns_begin_step(s, s->time, (double)(s->step + 1) * dt));
-    BRC_TRY(BRC_RUN(s->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(stage->phi)},
+    BRC_TRY(open_step(s, dt));
+    BRC_TRY(BRC_RUN(s->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(phi)},
                     {"lost", BRC_BUF(s->lost_numerical)}));
-    if (s->strikers) BRC_TRY(brc_strikers_advance(s, dt, dt, (stage->phi - 1) * dt, true));
-    BRC_TRY(brc_contact_turn(s, dt, dt, (stage->phi - 1) * dt * dt));
-    if (s->model->turns) /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
-        BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(dt)}, {"drift", BRC_STATE(dt)},
-                        {"extra", BRC_STATE((stage->phi - 1) * dt * dt)}));
-    if (stage->mass_damping > 0) BRC_TRY(drag(s, stage, dt));
+    /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
+    BRC_TRY(turn(s, &(brc_occasion){.kick = dt, .drift = dt, .extra = (phi - 1) * dt, .numerical = true}));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_DRAG, &(brc_occasion){.dt = dt}));
     BRC_TRY(close_step(s, dt));
     BRC_TRY(BRC_RUN(s->pass.numerical_close, n, {"lost", BRC_BUF(s->lost_numerical)}));
-    return break_bonds(s, 0); /* velocities are at whole steps already */
+    /* velocities are at whole steps already */
+    return brc_hook_run(s, BRC_HOOK_BREAK, &(brc_occasion){.half_kick = 0});
 }
 
 brc_status brc_dynamics_close(brc_simulation *s)
 {
     if (!s->open) return BRC_OK;
     BRC_TRY(kick_and_drift(s, 0.5 * s->time_step.value, 0));
-    BRC_TRY(brc_loads_impose_velocity(s, s->time));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_CLOSE, &(brc_occasion){.t = s->time}));
     s->open = false;
     return BRC_OK;
 }
@@ -117,13 +91,13 @@ static brc_status take_steps(brc_simulation *s, int64_t n_steps, bool close)
     const double dt = s->time_step.value;
     for (int64_t i = 0; i < n_steps; ++i) {
         if (stage->integrator == BRC_TCHAMWA_WIELGOSZ)
-            BRC_TRY(tchamwa_step(s, stage, dt));
+            BRC_TRY(tchamwa_step(s, stage->phi, dt));
         else {
-            BRC_TRY(verlet_step(s, stage, dt, s->open ? dt : 0.5 * dt));
+            BRC_TRY(verlet_step(s, dt, s->open ? dt : 0.5 * dt));
             s->open = true;
-            if ((close && i + 1 == n_steps) || brc_noise_is_due(s)) BRC_TRY(brc_dynamics_close(s));
+            if ((close && i + 1 == n_steps) || brc_hook_is_due(s, BRC_HOOK_WHOLE)) BRC_TRY(brc_dynamics_close(s));
         }
-        if (brc_noise_is_due(s)) BRC_TRY(brc_noise_damp(s));
+        BRC_TRY(brc_hook_run(s, BRC_HOOK_WHOLE, NULL));
     }
     return BRC_OK;
 }

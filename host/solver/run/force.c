@@ -1,9 +1,6 @@
-/* One evaluation of all forces: those of the model's bonds, then what loads, contact and gravity add, in this order. */
-#include "../effects/contact/contact.h"
-#include "../effects/loads/element_loads.h"
-#include "../effects/fracture/fracture_internal.h"
+/* One evaluation of all forces: those of the model's bonds, then what effects add, in the order of
+ * their hook. */
 #include "../effects/fracture/rings.h"
-#include "../effects/strikers/strikers_internal.h"
 
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
 {
@@ -12,16 +9,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
         BRC_TRY(brc_loads_zero_imposed(s, r->force));
         return brc_loads_zero_turned(s, r->torque);
     }
-    if (brc_contact_acts(s, r)) {
-        const brc_step_phase before = brc_phase_within(s, BRC_PHASE_PAIRS);
-        BRC_TRY(brc_contact_forces(s, r));
-        brc_phase_within(s, before);
-    }
-    if (s->scene->has_gravity) {
-        BRC_TRY(brc_pass_run_on(s->pass.gravity, s->layout->n_rows, r, NULL, NULL));
-    }
-    const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
-    BRC_TRY(brc_pushes_apply(s, r));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_FORCE, &(brc_occasion){.request = r}));
     if (s->model->late_tractions) BRC_TRY(s->model->late_tractions(s, r));
     brc_force_request all = *r;
     if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
@@ -29,14 +17,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
         all.force = s->force, all.torque = s->torque;
         r = &all;
     }
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        brc_imposed_load *m = s->loads.imposed + i;
-        const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);
-        BRC_TRY(BRC_RUN_ON(s->pass.impose_book, m->n, r, m, {"rate", BRC_STATE(rate)}));
-        if (r->book != BRC_BOOK_NOTHING) m->last_rate = rate;
-    }
-    if (s->strikers) BRC_TRY(brc_strikers_book(s, r->book));
-    return brc_turns_book(s, r);
+    return brc_hook_run(s, BRC_HOOK_BOOK, &(brc_occasion){.request = r});
 }
 
 brc_force_request brc_force_request_of_state(brc_simulation *s, brc_booking book)

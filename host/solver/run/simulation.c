@@ -1,14 +1,8 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
 #include "ahead.h"
-#include "../effects/fracture/cell_breaks.h"
-#include "../models/dlsm/closed_faces.h"
-#include "../effects/contact/contact.h"
-#include "../effects/fracture/fracture_internal.h"
 #include "split.h"
-#include "../effects/guard.h"
 #include "look.h"
-#include "../effects/noise_damping.h"
-#include "../effects/strikers/strikers_internal.h"
+#include "simulation_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -96,11 +90,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, brc_run_passes_make(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, brc_simulation_fields_create(s));
-    if (scene->has_fracture) BRC_TRY_OR(cleanup, brc_fracture_create(s));
-    BRC_TRY_OR(cleanup, brc_strikers_create(s));
-    BRC_TRY_OR(cleanup, brc_contact_create(s));
-    BRC_TRY_OR(cleanup, brc_noise_create(s));
-    brc_effects_list(s);
+    BRC_TRY_OR(cleanup, brc_effects_create(s));
     s->setup_seconds = brc_clock_s() - start;
     *out = s;
     return BRC_OK;
@@ -115,13 +105,9 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_simulation *s = *simulation;
     brc_simulation_fields_free(s);
     brc_loads_free(&s->loads);
-    brc_contact_free(s);
-    brc_fracture_free(s);
-    brc_strikers_free(s);
+    brc_effects_free(s);
     brc_look_free(s);
     brc_ahead_free(s);
-    brc_guard_free(s);
-    brc_noise_free(s);
     brc_geometry_free(s);
     brc_passes_free(&s->passes);
     brc_layout_free(&s->layout);
@@ -200,7 +186,7 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     s->time = s->load_factor = 0;
     s->progress = (brc_stage_progress){0};
     if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
-    brc_noise_begin_stage(s);
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_ENTERED, NULL));
     s->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
 }
@@ -209,15 +195,13 @@ brc_status brc_stage_start(brc_simulation *s)
 {
     const double start = brc_clock_s();
     brc_ledger after;
-    if (s->fracture) BRC_TRY(brc_fracture_begin_stage(s));
-    BRC_TRY(brc_loads_prescribe(s, 0));
-    if (s->strikers) BRC_TRY(brc_strikers_prescribe(s));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_BEGIN, NULL));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_PLACE, &(brc_occasion){.t = 0}));
     BRC_TRY(brc_force_refresh(s)); /* the search for the time step has evaluated other motions */
-    BRC_TRY(brc_contact_restart(s));
-    brc_closed_faces_restart(s);
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_RESTART, NULL));
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
-    BRC_TRY(brc_contact_wakes(s, &after));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_STARTED, &(brc_occasion){.ledger = &after}));
     s->initial_energy +=
         after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */
     s->setup_seconds += brc_clock_s() - start;

@@ -6,6 +6,7 @@
 #include "../../base/memory.h"
 #include "../core/fields.h"
 #include "../core/layout.h"
+#include "../effects/effect.h"
 #include "../core/passes.h"
 #include "phases.h"
 #include "patience.h"
@@ -14,7 +15,7 @@
 #include "state_store.h"
 #include <signal.h>
 
-enum { BRC_MOST_OBSERVERS = 8, BRC_MOST_EFFECTS = 24 };
+enum { BRC_MOST_OBSERVERS = 8, BRC_MOST_EFFECTS = 32 };
 
 /* Derived constants of one material (material.c). */
 typedef struct brc_elastic {
@@ -105,7 +106,7 @@ typedef struct brc_run_passes {
     brc_pass *face_displacement;
     brc_pass *cbm_force, *cbm_energy, *cbm_virial;
     brc_pass *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy;
-    brc_pass *advance, *advance_tchamwa, *numerical_close, *damp_mass, *gravity, *kinetic_energy, *divide_by_mass;
+    brc_pass *advance, *advance_tchamwa, *numerical_close, *kinetic_energy, *divide_by_mass;
     brc_pass *impose_motion, *impose_book, *zero_imposed, *zero_turned, *push_elements, *impose_turn, *turn_book;
     struct {
         int gradient, stress, flux, force;
@@ -141,6 +142,12 @@ typedef struct brc_stage_progress {
     double margin, largest_load; /* of the events of a static stage; margin 0: none yet */
 } brc_stage_progress;
 
+/* What is hooked in at one moment, in order. */
+typedef struct brc_hook_list {
+    int n;
+    const brc_hooked *at[BRC_MOST_EFFECTS];
+} brc_hook_list;
+
 struct brc_simulation {
     brc_context *context;
     const brc_scene *scene;
@@ -164,7 +171,6 @@ struct brc_simulation {
     brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;
     brc_buffer *mass, *volume, *inertia;
-    brc_buffer *weight;  /* mass, 0 in padding; only in scenes with gravity */
     brc_buffer *beam_of; /* cbm: branch in offset, 1/length in ratio; stiffness of elements (several materials) */
 
     /* state */
@@ -212,6 +218,10 @@ struct brc_simulation {
     brc_simulation *const
         *volatile others; /* [n_others] while they run in step with this one: an interrupt reaches them too */
     volatile int32_t n_others;
+    int n_effects; /* of this run (hooks.c) */
+    const brc_effect *effect[BRC_MOST_EFFECTS];
+    void *own[BRC_MOST_EFFECTS];
+    brc_hook_list hook[BRC_N_HOOKS];
     const char *effects_in[BRC_MOST_EFFECTS], *effects_out[BRC_MOST_EFFECTS];
     double setup_seconds, step_seconds;
     struct {
@@ -317,6 +327,8 @@ brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, con
 brc_status brc_loads_prescribe(brc_simulation *s, double t);
 /* Velocities of imposed elements at t. */
 brc_status brc_loads_impose_velocity(brc_simulation *s, double t);
+/* Reactions of imposed elements, and their work; their forces are zero then. */
+brc_status brc_imposed_book(brc_simulation *s, const struct brc_force_request *r);
 /* Load of an imposed list. */
 const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed);
 /* a(t), or its integral from 0 to t for velocity loads; rate: its derivative. */
@@ -386,7 +398,9 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
 brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_store *resumed);
 /* Modes of one; tells nobody. */
 brc_status brc_modes_run(brc_simulation *s);
-void brc_effects_list(brc_simulation *s);
+/* Effects of this run, after all they ask for is there; a failure leaves what was made for brc_effects_free. */
+brc_status brc_effects_create(brc_simulation *s);
+void brc_effects_free(brc_simulation *s);
 brc_status brc_notify_sample(brc_simulation *s);
 brc_status brc_notify_frame(brc_simulation *s);
 /* The run could go on from here later; why: BRC_PAUSE_INTERRUPTED where it was asked to stop, and stops. */

@@ -1,6 +1,4 @@
 /* Reading and writing the state from outside, in the order of element ids. */
-#include "../models/dlsm/closed_faces.h"
-#include "../effects/contact/contact.h"
 #include "simulation_internal.h"
 #include <math.h>
 #include <string.h>
@@ -92,8 +90,7 @@ brc_status brc_simulation_set_state(brc_simulation *s, const double *displacemen
     if (displacement) BRC_TRY(brc_state_to_rows(s, s->displacement, displacement, 3, 0));
     if (velocity) BRC_TRY(brc_state_to_rows(s, s->velocity, velocity, 3, 0));
     BRC_TRY(brc_force_refresh(s));
-    BRC_TRY(brc_contact_restart(s));
-    brc_closed_faces_restart(s);
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_RESTART, NULL));
     return brc_force_of_state(s, BRC_BOOK_START);
 }
 

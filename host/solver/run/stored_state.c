@@ -1,11 +1,8 @@
 /* The state of a simulation, number by number, for a store (state_store.h): the clock, the arrays of the elements, what
- * the loads of the stage remember. Modules with a state of their own are called from `walk`. */
-#include "../effects/contact/contact.h"
+ * the loads of the stage remember. Effects hook in behind them. */
 #include "../effects/loads/element_loads.h"
-#include "../effects/fracture/fracture_internal.h"
 #include "../effects/loads/load_fields.h"
 #include "state_store.h"
-#include "../effects/strikers/strikers_internal.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -197,10 +194,7 @@ static brc_status walk(brc_simulation *s, brc_state_store *store)
     BRC_TRY(walk_notes(s, store));
     BRC_TRY(walk_elements(s, store));
     BRC_TRY(walk_loads(s, store));
-    if (s->fracture) BRC_TRY(brc_fracture_store_state(s, store));
-    if (s->strikers) BRC_TRY(brc_strikers_store_state(s, store));
-    if (s->contact) BRC_TRY(brc_contact_store_state(s, store));
-    return BRC_OK;
+    return brc_hook_run(s, BRC_HOOK_STORE, &(brc_occasion){.store = store});
 }
 
 brc_status brc_simulation_save_state(brc_simulation *s, brc_state_store *store)

@@ -33,7 +33,7 @@ void brc_rings_free(brc_rings **rings);
 brc_scope brc_scope_of_rings(const brc_rings *rings, const brc_scope *outer);
 /* Rows of a brc_ring_list: around breaks, around open faces, of cells that still have bonds (made when most have
  * none). */
-extern const brc_field_table brc_ring_list_fields, brc_open_list_fields, brc_bonded_list_fields;
+extern const brc_field_table brc_ring_fields, brc_ring_list_fields, brc_open_list_fields, brc_bonded_list_fields;
 /* What is new in ring 0 (touched) and ring 1 since the last list was closed: rings->around, up to n[0] touched ones
  * that were found before, up to n[1] touched ones that were not, up to n[2] those of ring 1 alone. */
 brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);

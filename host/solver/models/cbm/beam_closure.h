@@ -6,6 +6,8 @@
 
 #include "../../effects/fracture/fracture_internal.h"
 
+extern const brc_field_table brc_beam_closure_fields;
+
 /* Arrays and kernels, after those of softening. */
 brc_status brc_beam_closure_create(brc_simulation *s);
 void brc_beam_closure_free(brc_simulation *s);

@@ -7,6 +7,8 @@
 #include "../../effects/fracture/fracture_internal.h"
 #include "../../effects/fracture/strengths.h"
 
+extern const brc_field_table brc_beam_softening_fields;
+
 /* Openings over the length of a broken beam from which on its ends stand clear of each other. */
 #define BRC_BEAM_CLEAR 0.05
 

@@ -1,5 +1,8 @@
 /* Model cbm: spheres joined by beams, NAH19 (docs/notebook/beams.md). */
 #include "../../effects/guard_cause.h"
+#include "../../effects/effect.h"
+#include "beam_closure.h"
+#include "beam_softening.h"
 #include "cbm.h"
 
 static const brc_model_statics statics = {
@@ -14,6 +17,14 @@ static void explain_loss(const brc_simulation *s, char *text, size_t size)
         text, size,
         "beams that were stretched or bent far beyond their law (sections turned by more than a right angle)");
 }
+
+static const brc_hooked hooked[] = {{.hook = BRC_HOOK_MOVED,
+                                     .order = BRC_MOVED_BONDS,
+                                     .phase = BRC_PHASE_FRACTURE,
+                                     .plain = brc_beam_softening_move,
+                                     .due = brc_beam_softening_is_on},
+                                    {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_BONDS, .plain = brc_beam_closure_move}};
+static const brc_field_table *const fields[] = {&brc_beam_softening_fields, &brc_beam_closure_fields, NULL};
 
 extern const brc_bond_model brc_cbm;
 const brc_bond_model brc_cbm = {
@@ -36,4 +47,6 @@ const brc_bond_model brc_cbm = {
     .step_bound = &step_bound,
     .conserves = true,
     .explain_loss = explain_loss,
+    .fields = fields,
+    BRC_HOOKED(hooked),
 };

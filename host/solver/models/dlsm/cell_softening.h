@@ -8,6 +8,8 @@
 #include "../../run/state_store.h"
 #include "../../effects/fracture/strengths.h"
 
+extern const brc_field_table brc_softening_fields;
+
 /* Arrays and kernels, where strengths->softens; warns of bonds that are too long for their fracture energy.
  * s->fracture->cells is there. */
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths);

@@ -213,9 +213,10 @@ brc_status brc_closed_faces_change(brc_simulation *s, double half_kick)
 
 /* ---- what it knows ---- */
 
-void brc_closed_faces_restart(brc_simulation *s)
+brc_status brc_closed_faces_restart(brc_simulation *s)
 {
     if (faces_of(s)) faces_of(s)->all = true;
+    return BRC_OK;
 }
 
 brc_status brc_closed_faces_stored(brc_simulation *s, double *out)

@@ -8,6 +8,8 @@
 #include "../../effects/fracture/rings.h"
 #include "../../run/state_store.h"
 
+extern const brc_field_table brc_closed_face_fields;
+
 /* Arrays and kernels. s->fracture->cells is there, with what softens. */
 brc_status brc_closed_faces_create(brc_simulation *s);
 void brc_closed_faces_free(brc_simulation *s);
@@ -28,7 +30,7 @@ brc_status brc_closed_faces_look(brc_simulation *s);
 brc_status brc_closed_faces_change(brc_simulation *s, double half_kick);
 
 /* Places were set otherwise than by a step: all faces are looked at, until the next one. */
-void brc_closed_faces_restart(brc_simulation *s);
+brc_status brc_closed_faces_restart(brc_simulation *s);
 /* Energy that pressed faces hold, and that sliding took so far [J]. */
 brc_status brc_closed_faces_stored(brc_simulation *s, double *out);
 brc_status brc_closed_faces_friction(brc_simulation *s, double *out);

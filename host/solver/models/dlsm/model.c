@@ -1,5 +1,8 @@
 /* Model dlsm: the conservative law (docs/notebook/theory.md T2). */
 #include "../../effects/fracture/cell_breaks.h"
+#include "../../effects/effect.h"
+#include "cell_softening.h"
+#include "closed_faces.h"
 #include "dlsm.h"
 #include "rims.h"
 
@@ -23,6 +26,28 @@ static const brc_model_breaking breaking = {.create = brc_dlsm_breaks_create,
 
 static const brc_model_statics statics = {.symmetric = true, .blocks = brc_geometry_precondition_blocks};
 
+/* Friction of broken faces, and what closed ones hold. */
+static brc_status energies(brc_simulation *s, const brc_occasion *now)
+{
+    double opened_rubbed, closed_rubbed, closed;
+    BRC_TRY(brc_softening_friction(s, &opened_rubbed));
+    BRC_TRY(brc_closed_faces_friction(s, &closed_rubbed));
+    BRC_TRY(brc_closed_faces_stored(s, &closed));
+    now->ledger->friction += opened_rubbed + closed_rubbed;
+    now->ledger->contact += closed;
+    return BRC_OK;
+}
+
+static const brc_hooked hooked[] = {{.hook = BRC_HOOK_RESTART, .plain = brc_closed_faces_restart},
+                                    {.hook = BRC_HOOK_MOVED,
+                                     .order = BRC_MOVED_BONDS,
+                                     .phase = BRC_PHASE_FRACTURE,
+                                     .plain = brc_softening_move,
+                                     .due = brc_softening_is_on},
+                                    {.hook = BRC_HOOK_LEDGER, .call = energies}};
+static const brc_field_table *const fields[] = {&brc_softening_fields, &brc_open_list_fields, &brc_closed_face_fields,
+                                                NULL};
+
 extern const brc_bond_model brc_dlsm;
 const brc_bond_model brc_dlsm = {
     .element = BRC_ELEMENT_CELL,
@@ -43,4 +68,6 @@ const brc_bond_model brc_dlsm = {
     .create_fracture = brc_cell_breaks_create,
     .break_bonds = brc_cell_breaks_fail,
     .breaking = &breaking,
+    .fields = fields,
+    BRC_HOOKED(hooked),
 };

@@ -1,0 +1,63 @@
+/* Contact as an effect. */
+#include "../effect.h"
+#include "../fracture/rings.h"
+#include "contact_internal.h"
+
+extern const brc_field_table brc_contact_old_slot_fields, brc_contact_old_listed_fields;
+
+static bool in(const brc_wants *w)
+{
+    return w->scene->has_contact;
+}
+static brc_status started(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_contact_wakes(s, now->ledger);
+}
+static brc_status turn(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_contact_turn(s, now->kick, now->drift, now->extra * now->drift);
+}
+static brc_status press(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_contact_acts(s, now->request) ? brc_contact_forces(s, now->request) : BRC_OK;
+}
+static brc_status energies(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_contact_ledger(s, now->ledger);
+}
+static brc_status store(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_contact_store_state(s, now->store);
+}
+
+static const brc_hooked hooked[] = {
+    {.hook = BRC_HOOK_RESTART, .plain = brc_contact_restart},
+    {.hook = BRC_HOOK_STARTED, .call = started},
+    {.hook = BRC_HOOK_ADVANCE, .call = turn},
+    {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_SURFACES, .phase = BRC_PHASE_SEARCH, .plain = brc_contact_follow},
+    {.hook = BRC_HOOK_FORCE, .order = BRC_FORCE_OF_SURFACES, .phase = BRC_PHASE_PAIRS, .call = press},
+    {.hook = BRC_HOOK_LEDGER, .call = energies},
+    {.hook = BRC_HOOK_STORE, .call = store}};
+static const brc_field_table *const fields[] = {&brc_contact_fields,
+                                                &brc_contact_sum_fields,
+                                                &brc_contact_slot_fields,
+                                                &brc_contact_old_slot_fields,
+                                                &brc_contact_grid_fields,
+                                                &brc_contact_bucket_fields,
+                                                &brc_contact_listed_fields,
+                                                &brc_contact_old_listed_fields,
+                                                &brc_contact_entry_fields,
+                                                &brc_contact_pair_fields,
+                                                &brc_contact_result_fields,
+                                                &brc_contact_part_fields,
+                                                &brc_contact_packed_at_fields,
+                                                &brc_contact_packed_fields,
+                                                &brc_contact_changed_fields,
+                                                &brc_bonded_list_fields,
+                                                NULL};
+const brc_effect brc_contact_effect = {.name = "contact",
+                                       .in = in,
+                                       .fields = fields,
+                                       .create = brc_contact_create,
+                                       .free = brc_contact_free,
+                                       BRC_HOOKED(hooked)};

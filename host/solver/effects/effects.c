@@ -1,0 +1,46 @@
+/* The effects that are there, of effects.def, and those that need nothing of their own. */
+#include "effect.h"
+
+#define BRC_EFFECT(descriptor) extern const brc_effect descriptor;
+#include "effects.def"
+#undef BRC_EFFECT
+
+#define BRC_EFFECT(descriptor) &descriptor,
+static const brc_effect *const effects[] = {
+#include "effects.def"
+};
+#undef BRC_EFFECT
+
+const brc_effect *const *brc_effects(int *n)
+{
+    *n = (int)(sizeof effects / sizeof *effects);
+    return effects;
+}
+
+static bool many(const brc_wants *w)
+{
+    return w->many_materials;
+}
+static bool tchamwa(const brc_wants *w)
+{
+    return w->tchamwa;
+}
+static bool some_stage(const brc_wants *w, brc_solver_kind solver)
+{
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        if (w->scene->stages[i].solver == solver) return true;
+    return false;
+}
+static bool statics(const brc_wants *w)
+{
+    return some_stage(w, BRC_SOLVER_STATIC);
+}
+static bool modes(const brc_wants *w)
+{
+    return some_stage(w, BRC_SOLVER_MODES);
+}
+
+const brc_effect brc_several_materials_effect = {.name = "several materials", .in = many};
+const brc_effect brc_numerical_damping_effect = {.name = "numerical damping (Tchamwa-Wielgosz)", .in = tchamwa};
+const brc_effect brc_static_solver_effect = {.name = "static solver", .in = statics};
+const brc_effect brc_free_modes_effect = {.name = "free vibration modes", .in = modes};

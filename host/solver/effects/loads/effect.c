@@ -1,0 +1,82 @@
+/* Loads of stages as effects. Elements without bonds may be held where no load is asked for. */
+#include "../effect.h"
+#include "element_loads.h"
+#include "load_fields.h"
+
+static bool some_load(const brc_wants *w, brc_load_kind a, brc_load_kind b)
+{
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        for (int32_t l = 0; l < w->scene->stages[i].n_loads; ++l) {
+            const brc_load_kind kind = w->scene->stages[i].loads[l].kind;
+            if (kind == a || kind == b) return true;
+        }
+    return false;
+}
+static bool faces(const brc_wants *w)
+{
+    return some_load(w, BRC_LOAD_FACE_DISPLACEMENT, BRC_LOAD_FACE_VELOCITY);
+}
+static bool tractions(const brc_wants *w)
+{
+    return some_load(w, BRC_LOAD_TRACTION, BRC_LOAD_PRESSURE);
+}
+static bool imposed(const brc_wants *w)
+{
+    return some_load(w, BRC_LOAD_ELEMENT_DISPLACEMENT, BRC_LOAD_ELEMENT_VELOCITY);
+}
+static bool pushed(const brc_wants *w)
+{
+    return some_load(w, BRC_LOAD_ELEMENT_FORCE, BRC_LOAD_ELEMENT_FORCE);
+}
+static bool turned(const brc_wants *w)
+{
+    return some_load(w, BRC_LOAD_ELEMENT_ROTATION, BRC_LOAD_ELEMENT_ROTATION);
+}
+
+static brc_status place(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_loads_prescribe(s, now->t);
+}
+static brc_status open_step(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_turns_begin_step(s, now->t, now->until);
+}
+static brc_status close_step(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_loads_impose_velocity(s, now->t);
+}
+static brc_status push(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_pushes_apply(s, now->request);
+}
+static brc_status book(brc_simulation *s, const brc_occasion *now)
+{
+    BRC_TRY(brc_imposed_book(s, now->request));
+    return brc_turns_book(s, now->request);
+}
+static brc_status work(brc_simulation *s, const brc_occasion *now)
+{
+    double done = 0;
+    if (s->stage >= 0) BRC_TRY(brc_loads_work(s, &done));
+    now->ledger->work += done + s->work_before;
+    return BRC_OK;
+}
+
+static const brc_hooked hooked[] = {
+    {.hook = BRC_HOOK_PLACE, .call = place},      {.hook = BRC_HOOK_OPEN_STEP, .call = open_step},
+    {.hook = BRC_HOOK_CLOSE, .call = close_step}, {.hook = BRC_HOOK_FORCE, .order = BRC_FORCE_OF_LOADS, .call = push},
+    {.hook = BRC_HOOK_BOOK, .call = book},        {.hook = BRC_HOOK_LEDGER, .call = work}};
+const brc_effect brc_held_faces_effect = {
+    .name = "prescribed faces",
+    .in = faces,
+    .fields =
+        (const brc_field_table *const[]){&brc_held_element_fields, &brc_held_face_fields, &brc_held_load_fields, NULL}};
+const brc_effect brc_tractions_effect = {
+    .name = "tractions", .in = tractions, .fields = (const brc_field_table *const[]){&brc_traction_fields, NULL}};
+const brc_effect brc_imposed_effect = {
+    .name = "imposed elements", .in = imposed, .fields = (const brc_field_table *const[]){&brc_imposed_fields, NULL}};
+const brc_effect brc_pushes_effect = {
+    .name = "forces on elements", .in = pushed, .fields = (const brc_field_table *const[]){&brc_push_fields, NULL}};
+const brc_effect brc_turns_effect = {
+    .name = "prescribed rotations", .in = turned, .fields = (const brc_field_table *const[]){&brc_turn_fields, NULL}};
+const brc_effect brc_stage_loads_effect = {BRC_HOOKED(hooked)};

@@ -1,0 +1,42 @@
+/* Walls and strikers as an effect. */
+#include "../effect.h"
+#include "strikers_internal.h"
+
+static bool in(const brc_wants *w)
+{
+    return w->scene->n_strikers > 0;
+}
+static brc_status advance(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_strikers_advance(s, now->kick, now->drift, now->extra, now->numerical);
+}
+static brc_status book(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_strikers_book(s, now->request->book);
+}
+static brc_status energies(brc_simulation *s, const brc_occasion *now)
+{
+    brc_striker_energies e;
+    BRC_TRY(brc_strikers_energies(s, &e));
+    now->ledger->kinetic += e.kinetic;
+    now->ledger->potential += e.potential;
+    now->ledger->work += e.work;
+    now->ledger->numerical += e.numerical;
+    return BRC_OK;
+}
+static brc_status store(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_strikers_store_state(s, now->store);
+}
+
+static const brc_hooked hooked[] = {{.hook = BRC_HOOK_PLACE, .plain = brc_strikers_prescribe},
+                                    {.hook = BRC_HOOK_ADVANCE, .call = advance},
+                                    {.hook = BRC_HOOK_BOOK, .call = book},
+                                    {.hook = BRC_HOOK_LEDGER, .call = energies},
+                                    {.hook = BRC_HOOK_STORE, .call = store}};
+const brc_effect brc_strikers_effect = {.name = "walls and strikers",
+                                        .in = in,
+                                        .fields = (const brc_field_table *const[]){&brc_striker_fields, NULL},
+                                        .create = brc_strikers_create,
+                                        .free = brc_strikers_free,
+                                        BRC_HOOKED(hooked)};
