@@ -1,7 +1,5 @@
-/* Host doubles by element id <-> device rows, and sums in fixed blocks. */
+/* Host doubles by element id <-> device rows. */
 #include "../run/simulation_internal.h"
-
-enum { SUM_BLOCK = 1024 }; /* as in kernels/vector.cl */
 
 static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count, int bytes_each)
 {
@@ -103,54 +101,4 @@ brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *value
 {
     BRC_TRY(brc_buffer_create(s->device, out, count * 4, what));
     return brc_upload_int(*out, values, count);
-}
-
-/* Add the block sums with Neumaier's compensation, so that the host's part adds no error of its own. */
-static brc_status add_partial(brc_simulation *s, int64_t n_blocks, double *out)
-{
-    double *blocks = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, n_blocks, "block sums"));
-    const brc_status status =
-        brc_download(s, s->partial, brc_precision_state_bytes(brc_device_get_precision(s->device)), blocks, n_blocks);
-    double sum = 0, lost = 0;
-    for (int64_t b = 0; b < n_blocks; ++b) {
-        const double next = sum + blocks[b];
-        const double big = sum > 0 ? sum : -sum, add = blocks[b] > 0 ? blocks[b] : -blocks[b];
-        lost += big >= add ? (sum - next) + blocks[b] : (blocks[b] - next) + sum;
-        sum = next;
-    }
-    brc_memory_free(blocks);
-    *out = sum + lost;
-    return status;
-}
-
-brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out)
-{
-    const int64_t n_blocks = (count + SUM_BLOCK - 1) / SUM_BLOCK;
-    BRC_TRY(BRC_LAUNCH(s->kernel.sum, n_blocks, BRC_INT(n_blocks), BRC_INT(count), BRC_BUF(x), BRC_BUF(s->partial)));
-    return add_partial(s, n_blocks, out);
-}
-
-brc_status brc_vector_axpy(brc_simulation *s, int64_t count, double a, brc_buffer *x, brc_buffer *y)
-{
-    return BRC_LAUNCH(s->kernel.axpy, count, BRC_INT(count), BRC_STATE(a), BRC_BUF(x), BRC_BUF(y));
-}
-
-brc_status brc_vector_gather(brc_simulation *s, int32_t n, brc_buffer *index, brc_buffer *x, brc_buffer *y)
-{
-    return BRC_LAUNCH(s->kernel.gather, n, BRC_INT(n), BRC_BUF(index), BRC_BUF(x), BRC_BUF(y));
-}
-
-brc_status brc_vector_small_rotation(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation)
-{
-    const int32_t n = s->layout->n_rows;
-    return BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(theta), BRC_BUF(orientation));
-}
-
-brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out)
-{
-    const int64_t n_blocks = (count + SUM_BLOCK - 1) / SUM_BLOCK;
-    BRC_TRY(BRC_LAUNCH(s->kernel.dot, n_blocks, BRC_INT(n_blocks), BRC_INT(count), BRC_BUF(x), BRC_BUF(y),
-                       BRC_BUF(s->partial)));
-    return add_partial(s, n_blocks, out);
 }

@@ -129,34 +129,12 @@ static brc_status make_load_passes(brc_simulation *s, const brc_scope *run, cons
                       {&p->zero_turned, "impose_zero", "vector", !turns});
 }
 
-static brc_status find_kernels(brc_simulation *s)
-{
-    brc_kernels *k = &s->kernel;
-    const bool rotations = brc_solves_rotations(s->model), turns = s->model->turns;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-        bool wanted;
-    } wanted[] = {{&k->axpy, "vector_axpy", true},
-                  {&k->xpay, "vector_xpay", true},
-                  {&k->dot, "vector_dot", true},
-                  {&k->sum, "vector_sum", true},
-                  {&k->gather, "vector_gather", s->scene->has_fracture},
-                  {&k->precondition, "block_precondition", true},
-                  {&k->precondition6, "block6_precondition", rotations},
-                  {&k->turn_orientation, "turn_orientation", rotations},
-                  {&k->small_rotation, "small_rotation", turns}};
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
-        if (wanted[i].wanted) BRC_TRY(brc_kernel_find(s->device, wanted[i].name, wanted[i].slot));
-    return BRC_OK;
-}
-
 brc_status brc_run_passes_make(brc_simulation *s)
 {
     brc_run_passes *p = &s->pass;
     const bool turns = s->model->turns;
     fill_constants(s);
-    BRC_TRY(find_kernels(s));
+    BRC_TRY(brc_vector_kernels_find(s));
     const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run), sums = brc_scope_of_sums(s, &run);
     BRC_TRY(s->model->make_passes(s, &run, &request));
     const brc_pass_wanted of_state[] = {

@@ -10,6 +10,7 @@
 #include "../core/passes.h"
 #include "phases.h"
 #include "patience.h"
+#include "../utilities/vectors.h"
 #include "regime.h"
 #include "simulation.h"
 #include "state_store.h"
@@ -89,12 +90,6 @@ typedef struct brc_loads {
     bool on_faces; /* some face is held or bears a traction */
 } brc_loads;
 
-/* Kernels of vectors, launched by position behind the functions of arrays.c, unknowns.c, preconditioner.c and
- * multigrid/. */
-typedef struct brc_kernels {
-    brc_kernel *axpy, *copy, *xpay, *dot, *sum, *gather, *small_rotation, *turn_orientation, *precondition,
-        *precondition6;
-} brc_kernels;
 /* Passes of the run; one that a model does not use stays NULL. */
 typedef struct brc_run_passes {
     brc_pass *gradient, *stress, *flux, *force, *energy, *deformation;
@@ -156,7 +151,7 @@ struct brc_simulation {
     brc_device *device;
     brc_layout *layout;
     brc_wants wants; /* what the tables of fields ask */
-    brc_kernels kernel;
+    brc_vector_kernels kernel;
     brc_run_passes pass;
     brc_pass *passes; /* all there are, of effects too (passes.h) */
     brc_constants constant;
@@ -233,7 +228,7 @@ struct brc_simulation {
 /* Is it time to leave off? Asked once an iteration. */
 bool brc_leaves_off(brc_simulation *s);
 
-/* ---- arrays.c: host doubles by id <-> device rows ---- */
+/* ---- ../core/arrays.c: host doubles by id <-> device rows ---- */
 brc_status brc_upload_coeff(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count);
 brc_status brc_upload_state(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count);
 brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count);
@@ -246,15 +241,6 @@ brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *va
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
 brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *values, int64_t count, const char *what);
-/* Sum of count state numbers, and dot product, in fixed blocks. */
-brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
-brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out);
-/* y = a x + y, of count state numbers. */
-brc_status brc_vector_axpy(brc_simulation *s, int64_t count, double a, brc_buffer *x, brc_buffer *y);
-/* y = x[index], n numbers. */
-brc_status brc_vector_gather(brc_simulation *s, int32_t n, brc_buffer *index, brc_buffer *x, brc_buffer *y);
-/* Orientations (quaternions) of small rotations theta [n_rows][3]. */
-brc_status brc_vector_small_rotation(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation);
 
 /* Storage of a scene's elements. */
 brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, const brc_domain *domain, int32_t slice,

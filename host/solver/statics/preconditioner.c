@@ -17,14 +17,11 @@ brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
 
 brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
 {
-    const int32_t n = s->layout->n_rows;
     if (v->preconditioner.multigrid && !rotations) return brc_multigrid_apply(v->preconditioner.multigrid, v->r, v->z);
     if (v->r.turn)
-        BRC_TRY(BRC_LAUNCH(s->kernel.precondition6, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks),
-                           BRC_BUF(v->r.move), BRC_BUF(v->r.turn), BRC_BUF(v->z.move), BRC_BUF(v->z.turn)));
+        BRC_TRY(brc_vector_blocks6(s, v->preconditioner.blocks, v->r.move, v->r.turn, v->z.move, v->z.turn));
     else
-        BRC_TRY(BRC_LAUNCH(s->kernel.precondition, n, BRC_INT(n), BRC_BUF(v->preconditioner.blocks), BRC_BUF(v->r.move),
-                           BRC_BUF(v->z.move)));
+        BRC_TRY(brc_vector_blocks(s, v->preconditioner.blocks, v->r.move, v->z.move));
     if (v->z.turn) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
     return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
 }

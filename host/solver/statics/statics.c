@@ -221,11 +221,9 @@ static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t incre
 /* The state takes the correction v->x. */
 static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
 {
-    const int32_t n = s->layout->n_rows;
     BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
     if (!brc_solves_rotations(s->model)) return BRC_OK;
-    if (finite)
-        return BRC_LAUNCH(s->kernel.turn_orientation, n, BRC_INT(n), BRC_BUF(v->x.turn), BRC_BUF(s->orientation));
+    if (finite) return brc_vector_turn(s, v->x.turn, s->orientation);
     return brc_vector_small_rotation(s, v->theta, s->orientation);
 }
 

@@ -11,8 +11,8 @@ brc_status brc_unknowns_add(brc_simulation *s, double a, brc_unknowns x, brc_unk
 brc_status brc_unknowns_scale_add(brc_simulation *s, brc_unknowns x, double a, brc_unknowns y)
 {
     const int32_t n = 3 * s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(s->kernel.xpay, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.move), BRC_BUF(y.move)));
-    return y.turn ? BRC_LAUNCH(s->kernel.xpay, n, BRC_INT(n), BRC_STATE(a), BRC_BUF(x.turn), BRC_BUF(y.turn)) : BRC_OK;
+    BRC_TRY(brc_vector_xpay(s, n, x.move, a, y.move));
+    return y.turn ? brc_vector_xpay(s, n, x.turn, a, y.turn) : BRC_OK;
 }
 
 brc_status brc_unknowns_dot(brc_simulation *s, brc_unknowns x, brc_unknowns y, double weight, double *out)

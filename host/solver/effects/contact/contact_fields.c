@@ -2,13 +2,6 @@
 #include "contact_internal.h"
 #include "../strikers/strikers_internal.h"
 
-enum { SCAN_BLOCK = 1024, SORT_BINS = 256 };
-
-static int64_t blocks_of(int64_t n, int64_t block)
-{
-    return (n + block - 1) / block;
-}
-
 /* ---- what is known from the start ---- */
 
 static bool contact(const brc_wants *w)
@@ -74,7 +67,7 @@ static int64_t each_loop(const brc_wants *w)
 
 static int64_t each_drift(const brc_wants *w)
 {
-    return blocks_of(w->layout->n_rows, BRC_CONTACT_BLOCK);
+    return brc_blocks(w->layout->n_rows, BRC_CONTACT_BLOCK);
 }
 static int64_t each_survey(const brc_wants *w)
 {
@@ -83,8 +76,8 @@ static int64_t each_survey(const brc_wants *w)
 /* Blocks of the largest scan there is: of rows, of the digits of all rows, or of the pairs. */
 static int64_t each_sum(const brc_wants *w)
 {
-    const int64_t n = w->layout->n_rows, digits = SORT_BINS * blocks_of(n, SCAN_BLOCK), rows = n > digits ? n : digits;
-    return blocks_of(w->n_listed > rows ? w->n_listed : rows, SCAN_BLOCK) + 1;
+    const int64_t n = w->layout->n_rows, digits = BRC_SORT_BINS * brc_scan_blocks(n), rows = n > digits ? n : digits;
+    return brc_scan_blocks(w->n_listed > rows ? w->n_listed : rows) + 1;
 }
 
 #define AT(member) BRC_FIELD_AT(brc_contact_state, member)
@@ -162,7 +155,7 @@ static int64_t each_exposed_end(const brc_wants *w)
 }
 static int64_t digits(const brc_wants *w)
 {
-    return SORT_BINS * blocks_of(w->exposed_room, SCAN_BLOCK);
+    return BRC_SORT_BINS * brc_scan_blocks(w->exposed_room);
 }
 static int64_t each_digit_end(const brc_wants *w)
 {
@@ -280,7 +273,7 @@ int64_t brc_contact_exposed_room(const brc_wants *w, int64_t n)
 
 int64_t brc_contact_buckets(int64_t n)
 {
-    int64_t buckets = SORT_BINS;
+    int64_t buckets = BRC_SORT_BINS;
     while (buckets < 2 * n)
         buckets *= 2;
     return buckets;

@@ -2,6 +2,7 @@
 #ifndef BRC_SOLVER_CONTACT_INTERNAL_H
 #define BRC_SOLVER_CONTACT_INTERNAL_H
 
+#include "../../utilities/scans.h"
 #include "contact.h"
 
 enum {
@@ -32,9 +33,7 @@ struct brc_contact_state {
         brc_pass *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
         brc_pass *detach, *pose, *turn, *spin_energy;
     } pass;
-    struct {
-        brc_kernel *scan_sums, *scan_tops, *scan_fill, *sort_count, *sort_move;
-    } kernel;
+    brc_scan_kernels scan;
     bool is_linear;   /* spheres: the law's normal force */
     bool affine;      /* dlsm: elements follow I + H; else they turn with quaternions of their own */
     int32_t width;    /* numbers of a moment: 9, else 3 */

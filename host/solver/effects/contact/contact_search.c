@@ -4,7 +4,7 @@
 #include "../strikers/strikers_internal.h"
 #include <math.h>
 
-enum { SCAN_BLOCK = 1024, SORT_BINS = 256, MOST_QUIET = 64, FEWEST_QUIET = 8 };
+enum { MOST_QUIET = 64, FEWEST_QUIET = 8 };
 
 /* A table of lists anew, for n things. */
 static brc_status renew(brc_simulation *s, const brc_field_table *table, int64_t n, void *owner)
@@ -13,26 +13,10 @@ static brc_status renew(brc_simulation *s, const brc_field_table *table, int64_t
     return brc_fields_create(s->device, table, &wants, owner);
 }
 
-static int32_t blocks_of(int64_t n, int32_t block)
-{
-    return (int32_t)((n + block - 1) / block);
-}
-
 /* start [n + 1]: running sums of x [n]; *total: that of all. */
 static brc_status scan(brc_simulation *s, brc_buffer *x, int64_t n, brc_buffer *start, int64_t *total)
 {
-    brc_contact_state *c = s->contact;
-    const int32_t n_blocks = blocks_of(n, SCAN_BLOCK);
-    int32_t sum = 0;
-    BRC_TRY(BRC_LAUNCH(c->kernel.scan_sums, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums)));
-    BRC_TRY(BRC_LAUNCH(c->kernel.scan_tops, 1, BRC_INT(1), BRC_INT(n_blocks), BRC_BUF(c->sums)));
-    BRC_TRY(BRC_LAUNCH(c->kernel.scan_fill, n_blocks, BRC_INT(n_blocks), BRC_INT(n), BRC_BUF(x), BRC_BUF(c->sums),
-                       BRC_BUF(start)));
-    if (total) {
-        BRC_TRY(brc_buffer_read(start, 4 * n, &sum, 4));
-        *total = sum;
-    }
-    return BRC_OK;
+    return brc_scan(&s->contact->scan, x, n, s->contact->sums, start, total);
 }
 
 static brc_status make_passes(brc_simulation *s)
@@ -70,16 +54,7 @@ static brc_status make_passes(brc_simulation *s)
 brc_status brc_contact_search_create(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&c->kernel.scan_sums, "scan_sums"},
-                  {&c->kernel.scan_tops, "scan_tops"},
-                  {&c->kernel.scan_fill, "scan_fill"},
-                  {&c->kernel.sort_count, "sort_count"},
-                  {&c->kernel.sort_move, "sort_move"}};
-    for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k)
-        BRC_TRY(brc_kernel_find(s->device, wanted[k].name, wanted[k].slot));
+    BRC_TRY(brc_scan_kernels_find(s->device, &c->scan));
     BRC_TRY(make_passes(s));
     BRC_TRY(brc_fields_create(s->device, &brc_contact_sum_fields, &s->wants, c));
     BRC_TRY(brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->now));
@@ -111,7 +86,7 @@ typedef struct survey {
 static brc_status take_survey(brc_simulation *s, survey *out)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
+    const int32_t n = s->layout->n_rows, n_blocks = brc_blocks(n, BRC_CONTACT_BLOCK);
     *out = (survey){.element = {0}};
     BRC_TRY(BRC_RUN(c->pass.drift, n_blocks, {"n", BRC_INT(n)}));
     BRC_TRY(BRC_RUN(c->pass.drift_mean, 1, {"n_blocks", BRC_INT(n_blocks)}));
@@ -163,17 +138,14 @@ static brc_status choose_skin(brc_simulation *s)
 static brc_status sort_by_cell(brc_simulation *s, double per_edge, int32_t mask, int *sorted)
 {
     brc_contact_state *c = s->contact;
-    const int32_t m = c->now.n_listed, n_blocks = blocks_of(m, SCAN_BLOCK);
+    const int32_t m = c->now.n_listed, n_blocks = brc_scan_blocks(m);
     int at = 0;
     BRC_TRY(BRC_RUN(c->pass.keys, m, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
                     {"key", BRC_BUF(c->key[0])}, {"row", BRC_BUF(c->row[0])}));
     for (int shift = 0; mask >> shift; shift += 8, at = 1 - at) {
-        BRC_TRY(BRC_LAUNCH(c->kernel.sort_count, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift),
-                           BRC_BUF(c->key[at]), BRC_BUF(c->count)));
-        BRC_TRY(scan(s, c->count, SORT_BINS * (int64_t)n_blocks, c->digits, NULL));
-        BRC_TRY(BRC_LAUNCH(c->kernel.sort_move, n_blocks, BRC_INT(n_blocks), BRC_INT(m), BRC_INT(shift),
-                           BRC_BUF(c->key[at]), BRC_BUF(c->row[at]), BRC_BUF(c->digits), BRC_BUF(c->key[1 - at]),
-                           BRC_BUF(c->row[1 - at])));
+        BRC_TRY(brc_sort_count(&c->scan, m, shift, c->key[at], c->count));
+        BRC_TRY(scan(s, c->count, BRC_SORT_BINS * (int64_t)n_blocks, c->digits, NULL));
+        BRC_TRY(brc_sort_move(&c->scan, m, shift, c->key[at], c->row[at], c->digits, c->key[1 - at], c->row[1 - at]));
     }
     *sorted = at;
     BRC_TRY(brc_buffer_fill_zero(c->first));
@@ -221,7 +193,7 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
         BRC_TRY(renew(s, &brc_contact_pair_fields, l->pair_room, l));
     }
     if (c->n_pieces) {
-        const int64_t parts = 6 * (int64_t)s->strikers->n * blocks_of(l->pair_room, BRC_CONTACT_PAIRS);
+        const int64_t parts = 6 * (int64_t)s->strikers->n * brc_blocks(l->pair_room, BRC_CONTACT_PAIRS);
         if (!c->part || parts > c->part_room) {
             c->part_room = parts;
             BRC_TRY(renew(s, &brc_contact_part_fields, parts, c));
@@ -294,10 +266,10 @@ static brc_status find_entries(brc_simulation *s, bool whole)
 {
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
-    const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = blocks_of(n, BRC_CONTACT_BLOCK);
+    const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = brc_blocks(n, BRC_CONTACT_BLOCK);
     double most[BRC_CONTACT_MOVED];
     int64_t near, n_redo;
-    int sorted, mask = SORT_BINS;
+    int sorted, mask = BRC_SORT_BINS;
     while (mask < 2 * (int64_t)m)
         mask *= 2;
     mask -= 1;

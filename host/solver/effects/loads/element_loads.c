@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int compare_members(const void *left, const void *right)
+int brc_load_compare_members(const void *left, const void *right)
 {
     const brc_load_member *a = left, *b = right;
     if (a->row != b->row) return a->row < b->row ? -1 : 1;
@@ -27,7 +27,7 @@ brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc
         const int32_t e = set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]];
         items[m] = (brc_load_member){s->layout->row_of_element[e], e};
     }
-    qsort(items, (size_t)set->n_members, sizeof *items, compare_members);
+    qsort(items, (size_t)set->n_members, sizeof *items, brc_load_compare_members);
     for (int64_t m = 0; m < set->n_members; ++m)
         if (*n == 0 || items[*n - 1].id != items[m].id) items[(*n)++] = items[m];
     return BRC_OK;

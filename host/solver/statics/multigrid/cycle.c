@@ -8,18 +8,14 @@ static brc_status own_residual(brc_multigrid *m, brc_unknowns x, brc_unknowns ri
 {
     brc_simulation *s = m->s;
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_LAUNCH(s->kernel.small_rotation, n, BRC_INT(n), BRC_BUF(x.turn), BRC_BUF(m->orientation)));
+    BRC_TRY(brc_vector_small_rotation(s, x.turn, m->orientation));
     BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = x.move,
                                                        .force = out.move,
                                                        .orientation = m->orientation,
                                                        .torque = out.turn,
                                                        .homogeneous = true}));
-    if (right.move)
-        BRC_TRY(
-            BRC_LAUNCH(s->kernel.axpy, 3 * n, BRC_INT(3 * n), BRC_STATE(1), BRC_BUF(right.move), BRC_BUF(out.move)));
-    if (right.turn)
-        BRC_TRY(
-            BRC_LAUNCH(s->kernel.axpy, 3 * n, BRC_INT(3 * n), BRC_STATE(1), BRC_BUF(right.turn), BRC_BUF(out.turn)));
+    if (right.move) BRC_TRY(brc_vector_axpy(s, 3 * n, 1, right.move, out.move));
+    if (right.turn) BRC_TRY(brc_vector_axpy(s, 3 * n, 1, right.turn, out.turn));
     return BRC_OK;
 }
 
@@ -27,29 +23,27 @@ brc_status brc_level_residual(brc_multigrid *m, int level, brc_unknowns x, brc_u
 {
     brc_simulation *s = m->s;
     const brc_level *l = &m->level[level];
-    const int n_right = right.turn ? 2 : right.move ? 1 : 0;
-    if (level > 0)
-        return BRC_LAUNCH(m->kernel.matrix, l->n, BRC_INT(l->n), BRC_BUF(l->start), BRC_BUF(l->column),
-                          BRC_BUF(l->block), BRC_BUF(x.move), BRC_BUF(x.turn), BRC_INT(n_right), BRC_BUF(right.move),
-                          BRC_BUF(right.turn), BRC_BUF(out.move), BRC_BUF(out.turn));
+    const brc_level_vectors v = {.move = x.move,
+                                 .turn = x.turn,
+                                 .force = out.move,
+                                 .torque = out.turn,
+                                 .n_right = right.turn   ? 2
+                                            : right.move ? 1
+                                                         : 0,
+                                 .right_force = right.move,
+                                 .right_torque = right.turn};
+    if (level > 0) return brc_pass_run_on(m->pass.matrix, l->n, &v, l, NULL);
     if (brc_solves_rotations(s->model)) return own_residual(m, x, right, out);
-    const bool by_branch = s->model->turns; /* which cells that turn store */
-    BRC_TRY(BRC_LAUNCH(m->kernel.cells, s->n_groups, BRC_INT(s->n_groups), BRC_BUF(s->row_start), BRC_BUF(s->neighbour),
-                       BRC_BUF(by_branch ? s->offset : s->area), BRC_BUF(by_branch ? s->area : s->ratio),
-                       BRC_INT(by_branch ? 1 : 0), BRC_COEFF(m->moduli.axial), BRC_COEFF(m->moduli.shear),
-                       BRC_COEFF(m->moduli.frame), BRC_BUF(m->moduli_of), BRC_BUF(x.move), BRC_BUF(x.turn),
-                       BRC_INT(n_right), BRC_BUF(right.move), BRC_BUF(right.turn), BRC_BUF(out.move),
-                       BRC_BUF(out.turn)));
-    if (m->n_ground == 0) return BRC_OK;
-    return BRC_LAUNCH(m->kernel.ground, m->n_ground, BRC_INT(m->n_ground), BRC_BUF(m->ground_element),
-                      BRC_BUF(m->ground), BRC_BUF(x.move), BRC_BUF(x.turn), BRC_BUF(out.move), BRC_BUF(out.turn));
+    BRC_TRY(brc_pass_run_on(m->pass.cells, s->n_groups, &v, NULL, NULL));
+    return m->n_ground > 0 ? brc_pass_run_on(m->pass.ground, m->n_ground, &v, NULL, NULL) : BRC_OK;
 }
 
 brc_status brc_level_step(brc_multigrid *m, int level, double weight, bool add, brc_unknowns r, brc_unknowns x)
 {
     const brc_level *l = &m->level[level];
-    return BRC_LAUNCH(m->kernel.step, l->n, BRC_INT(l->n), BRC_STATE(weight), BRC_INT(add ? 1 : 0), BRC_BUF(l->inverse),
-                      BRC_INT(r.turn ? 2 : 1), BRC_BUF(r.move), BRC_BUF(r.turn), BRC_BUF(x.move), BRC_BUF(x.turn));
+    const brc_level_vectors v = {
+        .move = x.move, .turn = x.turn, .force = r.move, .torque = r.turn, .n_right = r.turn ? 2 : 1};
+    return BRC_RUN_ON(m->pass.step, l->n, &v, l, {"weight", BRC_STATE(weight)}, {"add", BRC_INT(add ? 1 : 0)});
 }
 
 static brc_status dot(brc_simulation *s, int64_t n, brc_unknowns a, brc_unknowns b, double *out)
@@ -79,15 +73,13 @@ brc_status brc_level_stiffest(brc_multigrid *m, int level, double *out)
     BRC_TRY(status);
     BRC_TRY(brc_buffer_fill_zero(l->step.turn));
     BRC_TRY(brc_level_step(m, level, 1, false, l->step, l->left)); /* in its free components */
-    const int32_t n = (int32_t)(3 * l->n);
+    const int64_t n = 3 * l->n;
     for (int i = 0; i < ITERATIONS && above > 0 && below > 0; ++i) {
         const double scale = 1 / sqrt(i == 0 ? 1 : above);
         BRC_TRY(brc_buffer_fill_zero(l->step.move));
         BRC_TRY(brc_buffer_fill_zero(l->step.turn));
-        BRC_TRY(
-            BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(-scale), BRC_BUF(l->left.move), BRC_BUF(l->step.move)));
-        BRC_TRY(
-            BRC_LAUNCH(s->kernel.axpy, n, BRC_INT(n), BRC_STATE(-scale), BRC_BUF(l->left.turn), BRC_BUF(l->step.turn)));
+        BRC_TRY(brc_vector_axpy(s, n, -scale, l->left.move, l->step.move));
+        BRC_TRY(brc_vector_axpy(s, n, -scale, l->left.turn, l->step.turn));
         BRC_TRY(brc_level_residual(m, level, l->step, (brc_unknowns){NULL, NULL}, l->x)); /* -A v */
         BRC_TRY(dot(s, l->n, l->x, l->step, &below));
         BRC_TRY(brc_level_step(m, level, 1, false, l->x, l->left));
@@ -102,9 +94,8 @@ static brc_status coarsest(brc_multigrid *m, int level)
 {
     enum { STEPS = 8 };
     brc_level *l = &m->level[level];
-    if (m->inverse)
-        return BRC_LAUNCH(m->kernel.coarsest, l->n, BRC_INT(l->n), BRC_BUF(m->inverse), BRC_BUF(l->right.move),
-                          BRC_BUF(l->right.turn), BRC_BUF(l->x.move), BRC_BUF(l->x.turn));
+    const brc_level_vectors v = {.move = l->x.move, .turn = l->x.turn, .force = l->right.move, .torque = l->right.turn};
+    if (m->inverse) return brc_pass_run_on(m->pass.coarsest, l->n, &v, NULL, NULL);
     BRC_TRY(brc_level_step(m, level, l->weight, false, l->right, l->x));
     for (int i = 1; i < STEPS; ++i) {
         BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
@@ -120,13 +111,13 @@ static brc_status cycle(brc_multigrid *m, int level)
     if (level == m->n_levels - 1) return coarsest(m, level);
     BRC_TRY(brc_level_step(m, level, l->weight, false, l->right, l->x));
     BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
-    BRC_TRY(BRC_LAUNCH(m->kernel.restriction, c->n, BRC_INT(c->n), BRC_BUF(l->p_column_start), BRC_BUF(l->p_entry),
-                       BRC_BUF(l->p_block), BRC_BUF(l->left.move), BRC_BUF(l->left.turn), BRC_BUF(c->right.move),
-                       BRC_BUF(c->right.turn)));
+    const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
+                            up = {.move = l->x.move, .turn = l->x.turn};
+    BRC_TRY(BRC_RUN_ON(m->pass.restriction, c->n, &down, l, {"coarse_force", BRC_BUF(c->right.move)},
+                       {"coarse_torque", BRC_BUF(c->right.turn)}));
     BRC_TRY(cycle(m, level + 1));
-    BRC_TRY(BRC_LAUNCH(m->kernel.prolong, l->n, BRC_INT(l->n), BRC_BUF(l->p_start), BRC_BUF(l->p_column),
-                       BRC_BUF(l->p_block), BRC_BUF(c->x.move), BRC_BUF(c->x.turn), BRC_BUF(l->x.move),
-                       BRC_BUF(l->x.turn)));
+    BRC_TRY(BRC_RUN_ON(m->pass.prolong, l->n, &up, l, {"coarse_move", BRC_BUF(c->x.move)},
+                       {"coarse_turn", BRC_BUF(c->x.turn)}));
     BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
     return brc_level_step(m, level, l->weight, true, l->left, l->x);
 }
@@ -136,22 +127,22 @@ brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
 {
     brc_simulation *s = m->s;
     brc_level *l = &m->level[0], *c = l + 1;
-    const int32_t n = (int32_t)l->n, n3 = 3 * n;
+    const int64_t n = l->n;
     const brc_unknowns x = {z.move, z.turn ? z.turn : l->x.turn}, none = {NULL, NULL};
     BRC_TRY(brc_level_step(m, 0, l->weight, false, r, x));
     if (m->n_levels > 1) {
         BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
         BRC_TRY(brc_level_step(m, 0, l->weight, false, l->left, l->step));
         BRC_TRY(brc_level_residual(m, 0, l->step, l->left, l->right));
-        BRC_TRY(BRC_LAUNCH(m->kernel.collect, c->n, BRC_INT(c->n), BRC_BUF(l->member_start), BRC_BUF(l->member),
-                           BRC_BUF(l->arm), BRC_BUF(l->free_bits), BRC_BUF(l->right.move), BRC_BUF(l->right.turn),
-                           BRC_BUF(c->right.move), BRC_BUF(c->right.turn)));
+        const brc_level_vectors down = {.force = l->right.move, .torque = l->right.turn},
+                                up = {.move = l->step.move, .turn = l->step.turn};
+        BRC_TRY(BRC_RUN_ON(m->pass.collect, c->n, &down, l, {"whole_force", BRC_BUF(c->right.move)},
+                           {"whole_torque", BRC_BUF(c->right.turn)}));
         BRC_TRY(cycle(m, 1));
-        BRC_TRY(BRC_LAUNCH(m->kernel.spread, n, BRC_INT(n), BRC_BUF(l->aggregate), BRC_BUF(l->arm),
-                           BRC_BUF(l->free_bits), BRC_BUF(c->x.move), BRC_BUF(c->x.turn), BRC_BUF(l->step.move),
-                           BRC_BUF(l->step.turn)));
-        BRC_TRY(BRC_LAUNCH(s->kernel.axpy, n3, BRC_INT(n3), BRC_STATE(1), BRC_BUF(l->step.move), BRC_BUF(x.move)));
-        BRC_TRY(BRC_LAUNCH(s->kernel.axpy, n3, BRC_INT(n3), BRC_STATE(1), BRC_BUF(l->step.turn), BRC_BUF(x.turn)));
+        BRC_TRY(BRC_RUN_ON(m->pass.spread, n, &up, l, {"whole_move", BRC_BUF(c->x.move)},
+                           {"whole_turn", BRC_BUF(c->x.turn)}));
+        BRC_TRY(brc_vector_axpy(s, 3 * n, 1, l->step.move, x.move));
+        BRC_TRY(brc_vector_axpy(s, 3 * n, 1, l->step.turn, x.turn));
         BRC_TRY(brc_level_residual(m, 0, l->step, none, l->left));
         BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
     }

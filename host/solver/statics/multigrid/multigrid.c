@@ -10,19 +10,67 @@
 static const double box_in_spacings = 3;
 enum { MOST_SOLVED = 100 }; /* nodes of a coarsest level whose inverse is kept */
 
-static brc_status find_kernels(brc_multigrid *m)
+#define OF_LEVEL(member) BRC_FIELD_AT(brc_level, member)
+#define OF_ALL(member) BRC_FIELD_AT(brc_multigrid, member)
+#define OF_LAUNCH(member) BRC_FIELD_AT(brc_level_vectors, member)
+static brc_status make_passes(brc_multigrid *m)
 {
-    brc_level_kernels *k = &m->kernel;
+    static const brc_value_row of_launch[] = {{"move", BRC_VALUE_BUFFER, OF_LAUNCH(move)},
+                                              {"turn", BRC_VALUE_BUFFER, OF_LAUNCH(turn)},
+                                              {"force", BRC_VALUE_BUFFER, OF_LAUNCH(force)},
+                                              {"torque", BRC_VALUE_BUFFER, OF_LAUNCH(torque)},
+                                              {"n_right", BRC_VALUE_INT, OF_LAUNCH(n_right)},
+                                              {"right_force", BRC_VALUE_BUFFER, OF_LAUNCH(right_force)},
+                                              {"right_torque", BRC_VALUE_BUFFER, OF_LAUNCH(right_torque)}};
+    static const brc_value_row of_finest[] = {
+        {"vector", BRC_VALUE_BUFFER, OF_ALL(vector)},       {"number", BRC_VALUE_BUFFER, OF_ALL(number)},
+        {"by_branch", BRC_VALUE_BOOL, OF_ALL(by_branch)},   {"axial", BRC_VALUE_REAL, OF_ALL(moduli.axial)},
+        {"shear", BRC_VALUE_REAL, OF_ALL(moduli.shear)},    {"frame", BRC_VALUE_REAL, OF_ALL(moduli.frame)},
+        {"moduli_of", BRC_VALUE_BUFFER, OF_ALL(moduli_of)}, {"element", BRC_VALUE_BUFFER, OF_ALL(ground_element)},
+        {"block", BRC_VALUE_BUFFER, OF_ALL(ground)},        {"inverse", BRC_VALUE_BUFFER, OF_ALL(inverse)}};
+    static const brc_value_row of_matrix[] = {{"inverse", BRC_VALUE_BUFFER, OF_LEVEL(inverse)},
+                                              {"start", BRC_VALUE_BUFFER, OF_LEVEL(start)},
+                                              {"column", BRC_VALUE_BUFFER, OF_LEVEL(column)},
+                                              {"block", BRC_VALUE_BUFFER, OF_LEVEL(block)}};
+    static const brc_value_row of_transfer[] = {{"start", BRC_VALUE_BUFFER, OF_LEVEL(p_start)},
+                                                {"column", BRC_VALUE_BUFFER, OF_LEVEL(p_column)},
+                                                {"block", BRC_VALUE_BUFFER, OF_LEVEL(p_block)},
+                                                {"column_start", BRC_VALUE_BUFFER, OF_LEVEL(p_column_start)},
+                                                {"place", BRC_VALUE_BUFFER, OF_LEVEL(p_entry)}};
+    static const brc_value_row of_aggregates[] = {{"start", BRC_VALUE_BUFFER, OF_LEVEL(member_start)},
+                                                  {"member", BRC_VALUE_BUFFER, OF_LEVEL(member)},
+                                                  {"aggregate", BRC_VALUE_BUFFER, OF_LEVEL(aggregate)},
+                                                  {"arm", BRC_VALUE_BUFFER, OF_LEVEL(arm)},
+                                                  {"free_bits", BRC_VALUE_BUFFER, OF_LEVEL(free_bits)}};
+    brc_simulation *s = m->s;
+    brc_level_passes *p = &m->pass;
+    const brc_scope run = brc_scope_of_run(s);
+    const brc_scope vectors = {.owner = "vectors", .kind = BRC_SCOPE_REQUEST, BRC_VALUES(of_launch), .outer = &run};
+    const brc_scope finest = {.owner = "multigrid", .base = m, BRC_VALUES(of_finest), .outer = &vectors};
+    const brc_scope matrix = {.owner = "level", .kind = BRC_SCOPE_ITEM, BRC_VALUES(of_matrix), .outer = &vectors};
+    const brc_scope transfer = {
+        .owner = "transfer", .kind = BRC_SCOPE_ITEM, BRC_VALUES(of_transfer), .outer = &vectors};
+    const brc_scope aggregates = {
+        .owner = "aggregates", .kind = BRC_SCOPE_ITEM, BRC_VALUES(of_aggregates), .outer = &vectors};
     const struct {
-        brc_kernel **slot;
-        const char *name;
-    } wanted[] = {{&k->cells, "multigrid_cells"},      {&k->ground, "multigrid_ground"},
-                  {&k->matrix, "multigrid_matrix"},    {&k->step, "multigrid_step"},
-                  {&k->collect, "multigrid_collect"},  {&k->spread, "multigrid_spread"},
-                  {&k->prolong, "multigrid_prolong"},  {&k->restriction, "multigrid_restrict"},
-                  {&k->coarsest, "multigrid_coarsest"}};
+        brc_pass **slot;
+        const brc_scope *scope;
+        const char *kernel, *open;
+    } wanted[] = {{&p->cells, &finest, "multigrid_cells", NULL},
+                  {&p->ground, &finest, "multigrid_ground", NULL},
+                  {&p->coarsest, &finest, "multigrid_coarsest", NULL},
+                  {&p->matrix, &matrix, "multigrid_matrix", NULL},
+                  {&p->step, &matrix, "multigrid_step", "weight add"},
+                  {&p->collect, &aggregates, "multigrid_collect", "whole_force whole_torque"},
+                  {&p->spread, &aggregates, "multigrid_spread", "whole_move whole_turn"},
+                  {&p->prolong, &transfer, "multigrid_prolong", "coarse_move coarse_turn"},
+                  {&p->restriction, &transfer, "multigrid_restrict", "coarse_force coarse_torque"}};
+    m->by_branch = s->model->turns; /* which cells that turn store */
+    m->vector = m->by_branch ? s->offset : s->area;
+    m->number = m->by_branch ? s->area : s->ratio;
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
-        BRC_TRY(brc_kernel_find(m->s->device, wanted[i].name, wanted[i].slot));
+        BRC_TRY(brc_pass_make(s->context, s->device, wanted[i].scope, wanted[i].kernel, wanted[i].open, &p->all,
+                              wanted[i].slot));
     return BRC_OK;
 }
 
@@ -322,7 +370,7 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
     *out = NULL;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &m, 1, "multigrid"));
     m->s = s;
-    BRC_TRY_OR(cleanup, find_kernels(m));
+    BRC_TRY_OR(cleanup, make_passes(m));
     if (!(origin->weight > 0) && s->fracture) origin->moment = brc_fracture_moment(s);
     BRC_TRY_OR(cleanup, brc_fine_create(s, origin->moment, &fine));
     BRC_TRY_OR(cleanup, make_levels(m, &fine, origin->weight));
@@ -358,6 +406,7 @@ void brc_multigrid_free(brc_multigrid **multigrid)
     brc_buffer **rest[] = {&m->inverse, &m->moduli_of, &m->ground_element, &m->ground, &m->orientation};
     for (size_t k = 0; k < sizeof rest / sizeof *rest; ++k)
         brc_buffer_free(rest[k]);
+    brc_passes_free(&m->pass.all);
     brc_memory_free(m);
     *multigrid = NULL;
 }

@@ -19,13 +19,21 @@ typedef struct brc_level {
     brc_buffer *aggregate, *member_start, *member, *arm, *free_bits;
 } brc_level;
 
-typedef struct brc_level_kernels {
-    brc_kernel *cells, *ground, *matrix, *step, *collect, *spread, *prolong, *restriction, *coarsest;
-} brc_level_kernels;
+typedef struct brc_level_passes {
+    brc_pass *all, *cells, *ground, *matrix, *step, *collect, *spread, *prolong, *restriction, *coarsest;
+} brc_level_passes;
+/* Vectors of a launch, as kernels/multigrid.cl calls them; right: of n_right parts, 0 none, 1 forces, 2 torques too. */
+typedef struct brc_level_vectors {
+    brc_buffer *move, *turn, *force, *torque;
+    int32_t n_right;
+    brc_buffer *right_force, *right_torque;
+} brc_level_vectors;
 
 struct brc_multigrid {
     brc_simulation *s;
-    brc_level_kernels kernel;
+    brc_level_passes pass;
+    brc_buffer *vector, *number; /* of bonds, borrowed: branches and areas where cells turn, else areas and S/L */
+    bool by_branch;
     int n_levels;
     brc_level level[BRC_MOST_LEVELS];
     brc_buffer *inverse;    /* of the coarsest level's matrix; NULL: steps alone */

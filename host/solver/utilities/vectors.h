@@ -1,0 +1,34 @@
+/* Algebra of vectors on the device (kernels/vector.cl). */
+#ifndef BRC_SOLVER_UTILITIES_VECTORS_H
+#define BRC_SOLVER_UTILITIES_VECTORS_H
+
+#include "../../device/device.h"
+
+typedef struct brc_simulation brc_simulation;
+
+/* One that a model does not use stays NULL. */
+typedef struct brc_vector_kernels {
+    brc_kernel *axpy, *xpay, *dot, *sum, *gather, *small_rotation, *turn_orientation, *precondition, *precondition6;
+} brc_vector_kernels;
+
+/* Their kernels, in s->kernel. */
+brc_status brc_vector_kernels_find(brc_simulation *s);
+/* Sum of count state numbers, and dot product, in fixed blocks. */
+brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
+brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out);
+/* y = a x + y, of count state numbers. */
+brc_status brc_vector_axpy(brc_simulation *s, int64_t count, double a, brc_buffer *x, brc_buffer *y);
+/* y = x[index], n numbers. */
+brc_status brc_vector_gather(brc_simulation *s, int32_t n, brc_buffer *index, brc_buffer *x, brc_buffer *y);
+/* Orientations (quaternions) of small rotations theta [n_rows][3]. */
+brc_status brc_vector_small_rotation(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation);
+/* The same, added to what they are: orientation turned by theta. */
+brc_status brc_vector_turn(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation);
+/* y = x + a y, of count state numbers. */
+brc_status brc_vector_xpay(brc_simulation *s, int64_t count, brc_buffer *x, double a, brc_buffer *y);
+/* y = D x, with a symmetric block of each row: [n_rows][6] of 3 numbers, [n_rows][21] of 3 and 3. */
+brc_status brc_vector_blocks(brc_simulation *s, brc_buffer *blocks, brc_buffer *x, brc_buffer *y);
+brc_status brc_vector_blocks6(brc_simulation *s, brc_buffer *blocks, brc_buffer *x, brc_buffer *x_turn, brc_buffer *y,
+                              brc_buffer *y_turn);
+
+#endif
