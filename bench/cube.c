@@ -4,11 +4,12 @@
 
 bool brc_cube_is_of_spheres(brc_model_kind model)
 {
-    return model == BRC_MODEL_CBM;
+    return brc_model_traits_of(model)->spheres;
 }
 
 void brc_cube_make(brc_cube *c, brc_model_kind model)
 {
+    const brc_model_traits *traits = brc_model_traits_of(model);
     memset(c, 0, sizeof *c);
     c->material = (brc_material){.name = "glass", .young = 72e9, .poisson = 0.23, .density = 2500};
     snprintf(c->body.name, sizeof c->body.name, "cube");
@@ -17,15 +18,16 @@ void brc_cube_make(brc_cube *c, brc_model_kind model)
         (brc_initial){.kind = BRC_INITIAL_AFFINE, .gradient = {{1e-6, 2e-7, 0}, {0, -3e-7, 1e-7}, {1e-7, 0, 5e-7}}};
     c->initial[1] = (brc_initial){.kind = BRC_INITIAL_RANDOM, .value = {1e-4, 1e-4, 1e-4}, .seed = 1};
     /* The paper's time step is far below the critical one at this nu and needs no power iteration. */
-    c->stage = (brc_stage){.name = "run",
-                           .solver = BRC_SOLVER_DYNAMIC,
-                           .n_initials = 2,
-                           .initials = c->initial,
-                           .integrator = model == BRC_MODEL_DLSM_PUBLISHED ? BRC_TCHAMWA_WIELGOSZ : BRC_VELOCITY_VERLET,
-                           .phi = 1.03,
-                           .time_step_rule = model == BRC_MODEL_CBM ? BRC_TIME_STEP_AUTO : BRC_TIME_STEP_PUBLISHED,
-                           .safety = 0.8,
-                           .steps = INT64_C(1) << 40};
+    c->stage =
+        (brc_stage){.name = "run",
+                    .solver = BRC_SOLVER_DYNAMIC,
+                    .n_initials = 2,
+                    .initials = c->initial,
+                    .integrator = !traits->spheres && !traits->deforms ? BRC_TCHAMWA_WIELGOSZ : BRC_VELOCITY_VERLET,
+                    .phi = 1.03,
+                    .time_step_rule = traits->spheres ? BRC_TIME_STEP_AUTO : BRC_TIME_STEP_PUBLISHED,
+                    .safety = 0.8,
+                    .steps = INT64_C(1) << 40};
     c->scene = (brc_scene){.version = 1,
                            .folder = ".",
                            .n_materials = 1,

@@ -294,7 +294,7 @@ static brc_status measure_model(brc_context *context, const brc_effects_request 
     BRC_TRY_OR(cleanup, brc_cube_build(context, r->size, brc_cube_is_of_spheres(model), &domain));
     BRC_TRY_OR(cleanup, make_variant(context, r, domain, model, &elastic, 0, 1, &base));
     for (int k = 0; k < N_EFFECTS; ++k) {
-        if (effects[k].softens && model != BRC_MODEL_DLSM) continue;
+        if (effects[k].softens && !brc_model_traits_of(model)->cohesion) continue;
         which[n] = &effects[k];
         BRC_TRY_OR(cleanup, find_scale(context, r, domain, model, &effects[k], &scale));
         BRC_TRY_OR(cleanup, make_variant(context, r, domain, model, &effects[k], effects[k].rate, scale, &v[n++]));

@@ -28,7 +28,7 @@ brc_status brc_setup_polish(brc_context *context, int n_threads, brc_setup *setu
 {
     for (int32_t k = 0; k < setup->n; ++k) {
         brc_scene *scene = setup->split->part[k].scene;
-        if (scene->model.kind == BRC_MODEL_CBM && scene->model.polish)
+        if (brc_model_traits_of(scene->model.kind)->spheres && scene->model.polish)
             BRC_TRY(brc_beam_polish_scene(context, scene, setup->domain[k], n_threads));
     }
     return BRC_OK;

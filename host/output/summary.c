@@ -32,7 +32,7 @@ static const char *end_name(const brc_summary *summary)
 /* The kinds of models that bodies ask for, of a run that did not come to simulations. */
 static const char *asked_models(const brc_scene *scene, char *words, size_t room)
 {
-    bool told[BRC_MODEL_CBM + 1] = {false};
+    bool told[BRC_N_MODELS] = {false};
     words[0] = '\0';
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         const brc_model_kind kind = scene->bodies[b].has_model ? scene->bodies[b].model.kind : scene->model.kind;

@@ -208,7 +208,7 @@ static void complete(brc_scene *scene)
 {
     for (int b = -1; b < scene->n_bodies; ++b) {
         brc_model *model = b < 0 ? &scene->model : &scene->bodies[b].model;
-        if (model->kind == BRC_MODEL_DLSM && !model->compaction) model->beta = 0;
+        if (brc_model_traits_of(model->kind)->deforms && !model->compaction) model->beta = 0;
     }
     for (int b = 0; b < scene->n_bodies; ++b) {
         brc_fill *fill = &scene->bodies[b].fill;
@@ -225,9 +225,7 @@ static void check_couples(brc_reader *reader)
     const brc_scene *scene = reader->scene;
     for (int b = -1; b < scene->n_bodies; ++b) {
         const brc_model *model = b < 0 ? &scene->model : &scene->bodies[b].model;
-        if ((b >= 0 && !scene->bodies[b].has_model) || model->kind != BRC_MODEL_DLSM_PUBLISHED ||
-            !(model->couple_modulus > 0))
-            continue;
+        if ((b >= 0 && !scene->bodies[b].has_model) || !(model->couple_modulus > 0)) continue;
         for (int k = 0; k < scene->n_stages; ++k)
             if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC)
                 COMPLAIN(reader, &model->couple_modulus, model,

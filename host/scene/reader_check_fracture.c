@@ -45,7 +45,7 @@ static void check_measured_by(brc_reader *reader, int b)
 {
     const brc_scene *scene = reader->scene;
     const brc_body *body = &scene->bodies[b];
-    if (brc_body_model(scene, b)->kind == BRC_MODEL_CBM) return;
+    if (brc_model_traits_of(brc_body_model(scene, b)->kind)->spheres) return;
     for (int m = 0; m < scene->n_materials; ++m) {
         const brc_material *material = &scene->materials[m];
         if (brc_body_uses(body, m) && material->measured_by != BRC_STRENGTH_BY_TENSION)
@@ -105,13 +105,14 @@ static void check_models(brc_reader *reader)
     for (int b = 0; b < scene->n_bodies; ++b) {
         const brc_body *body = &scene->bodies[b];
         const brc_model *model = brc_body_model(scene, b);
+        const bool spheres = brc_model_traits_of(model->kind)->spheres;
         if (body->domain_file[0]) continue;
-        if (model->kind == BRC_MODEL_CBM && !(body->beams > 0))
+        if (spheres && !(body->beams > 0))
             COMPLAIN(reader, &model->kind, body,
                      "model cbm needs spheres joined by beams, and body '%s' is made of cells; add `beams: 8` and a "
                      "fill with radii to it, or use model: dlsm",
                      body->name);
-        if (model->kind != BRC_MODEL_CBM && body->beams > 0)
+        if (!spheres && body->beams > 0)
             COMPLAIN(reader, &body->beams, body,
                      "beams: model %s needs cells, and body '%s' is made of spheres joined by beams; remove `beams`, "
                      "or use model: cbm",
@@ -120,7 +121,7 @@ static void check_models(brc_reader *reader)
     for (int k = 0; k < scene->n_stages; ++k) {
         const brc_stage *stage = &scene->stages[k];
         for (int b = 0; b < scene->n_bodies && stage->noise_damping > 0; ++b) {
-            if (brc_body_model(scene, b)->kind == BRC_MODEL_DLSM) continue;
+            if (brc_model_traits_of(brc_body_model(scene, b)->kind)->deforms) continue;
             COMPLAIN(reader, &stage->noise_damping, stage,
                      "noise_damping: it is made of the bonds of model dlsm, and body '%s' is of model %s; use model "
                      "dlsm, mass_damping or integrator tchamwa-wielgosz",
@@ -140,13 +141,14 @@ static void check_criterion(brc_reader *reader)
         const brc_body *body = &scene->bodies[b];
         const brc_model *model = brc_body_model(scene, b);
         const bool by_bond = brc_scene_breaks_by_bond(scene, model->kind);
-        const bool softens = model->kind == BRC_MODEL_CBM || (model->kind == BRC_MODEL_DLSM && by_bond);
-        if (model->kind == BRC_MODEL_CBM && by_bond)
+        const brc_model_traits *traits = brc_model_traits_of(model->kind);
+        const bool softens = traits->spheres || (traits->cohesion && by_bond);
+        if (traits->spheres && by_bond)
             COMPLAIN(reader, &scene->fracture.kind, scene,
                      "criterion: bond-normal is for cells, and body '%s' is of model cbm; use virial-principal, or "
                      "leave the criterion out",
                      body->name);
-        if (model->kind != BRC_MODEL_CBM && model->small_rotations)
+        if (!traits->spheres && model->small_rotations)
             COMPLAIN(reader, &model->small_rotations, model,
                      "small_rotations: a linearised law does not break; leave out small_rotations or fracture");
         for (int m = 0; m < scene->n_materials && !softens; ++m)
@@ -220,7 +222,7 @@ static void check_limits_of(brc_reader *reader, const brc_body *body, const brc_
                  "shear_fracture_energy: is of cells of model dlsm that fail by mohr-coulomb, and body '%s' (model %s) "
                  "would not look at it; %s",
                  body->name, brc_model_name(model->kind),
-                 model->kind == BRC_MODEL_DLSM
+                 brc_model_traits_of(model->kind)->cohesion
                      ? "add `fracture: {criterion: {mohr-coulomb: {cohesion: ..., friction: ...}}}`, or remove it"
                      : "beams and others take their fracture_energy whatever the mode: remove it, or use model dlsm");
     if (material->compression > 0 && slides)

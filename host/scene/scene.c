@@ -70,7 +70,7 @@ bool brc_material_breaks(const brc_scene *scene, brc_model_kind model, const brc
 {
     if (brc_scene_breaks_by_bond(scene, model)) return m->tension > 0;
     return m->tension > 0 || m->compression > 0 || scene->fracture.cohesion > 0 ||
-           (model == BRC_MODEL_CBM && (m->beam_strength > 0 || m->beam_compression > 0));
+           (brc_model_traits_of(model)->spheres && (m->beam_strength > 0 || m->beam_compression > 0));
 }
 
 bool brc_scene_softens(const brc_scene *scene)
@@ -84,8 +84,8 @@ bool brc_scene_softens(const brc_scene *scene)
 
 bool brc_scene_slides(const brc_scene *scene, brc_model_kind model)
 {
-    return scene->has_fracture && model == BRC_MODEL_DLSM && scene->fracture.kind == BRC_CRITERION_MOHR_COULOMB &&
-           brc_scene_softens(scene);
+    return scene->has_fracture && brc_model_traits_of(model)->cohesion &&
+           scene->fracture.kind == BRC_CRITERION_MOHR_COULOMB && brc_scene_softens(scene);
 }
 
 bool brc_scene_breaks_by_bond(const brc_scene *scene, brc_model_kind model)
@@ -108,17 +108,31 @@ double brc_scene_side_friction(const brc_scene *scene)
 brc_criterion_kind brc_criterion_of(const brc_fracture *fracture, brc_model_kind model)
 {
     if (fracture->kind != BRC_CRITERION_AUTO) return fracture->kind;
-    return model == BRC_MODEL_CBM ? BRC_CRITERION_PRINCIPAL : BRC_CRITERION_BOND_NORMAL;
+    return brc_model_traits_of(model)->spheres ? BRC_CRITERION_PRINCIPAL : BRC_CRITERION_BOND_NORMAL;
+}
+
+#define BRC_MODEL(kind, name, word, meaning) extern const brc_model_traits brc_##word##_traits;
+#include "models.def"
+#undef BRC_MODEL
+
+const brc_model_traits *brc_model_traits_of(brc_model_kind kind)
+{
+#define BRC_MODEL(kind, name, word, meaning) [kind] = &brc_##word##_traits,
+    static const brc_model_traits *const traits[] = {
+#include "models.def"
+    };
+#undef BRC_MODEL
+    return traits[kind];
 }
 
 const char *brc_model_name(brc_model_kind kind)
 {
-    switch (kind) {
-    case BRC_MODEL_DLSM: return "dlsm";
-    case BRC_MODEL_DLSM_PUBLISHED: return "dlsm-published";
-    case BRC_MODEL_CBM: return "cbm";
-    }
-    return "";
+#define BRC_MODEL(kind, name, word, meaning) [kind] = name,
+    static const char *const names[] = {
+#include "models.def"
+    };
+#undef BRC_MODEL
+    return kind < BRC_N_MODELS ? names[kind] : "";
 }
 
 double brc_table_value(const brc_table *table, double t)

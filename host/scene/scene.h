@@ -4,6 +4,7 @@
 #ifndef BRC_SCENE_SCENE_H
 #define BRC_SCENE_SCENE_H
 
+#include "model_kinds.h"
 #include "../../preprocess/domain/build.h"
 #include "../base/status.h"
 #include <stdint.h>
@@ -90,12 +91,6 @@ typedef struct brc_fracture {
                              (brc_scene_side_friction) */
     uint64_t seed;        /* of the draws of strengths, keyed by the ids of a bond's elements */
 } brc_fracture;
-
-typedef enum brc_model_kind {
-    BRC_MODEL_DLSM,           /* the conservative law, docs/notebook/theory.md T2 */
-    BRC_MODEL_DLSM_PUBLISHED, /* the published law, AGH19, docs/notebook/theory.md T3 */
-    BRC_MODEL_CBM             /* spheres joined by beams, NAH19, docs/notebook/beams.md */
-} brc_model_kind;
 
 typedef struct brc_model {
     brc_model_kind kind;
@@ -503,8 +498,6 @@ bool brc_scene_slides(const brc_scene *scene, brc_model_kind model);
 bool brc_scene_shuts(const brc_scene *scene);
 /* Friction of the sides of broken faces where they do [-]. */
 double brc_scene_side_friction(const brc_scene *scene);
-/* "dlsm", "dlsm-published", "cbm"; static storage. */
-const char *brc_model_name(brc_model_kind kind);
 /* Unit of a sensor's value ("N", "m", "-", "rad", "Pa", "J", "m/s", "Hz", "N m", "m^2"); static storage. */
 const char *brc_sensor_unit(const brc_sensor *sensor);
 /* Unit of a measure's value, given the scene (for sensors' units); static storage. */

@@ -36,58 +36,15 @@ const brc_section brc_schema_material = {.title = "material",
                                          .size = sizeof(brc_material),
                                          .sample_name = "glass"};
 
-#define SMALL_ROTATIONS                                                                                                \
-    {                                                                                                                  \
-        "small_rotations", BRC_TYPE_BOOL, FIELD(brc_model, small_rotations),                                           \
-            .given = "false",                                                                                          \
-            .meaning =                                                                                                 \
-                "true: the law linearised about the reference: a body that turns grows and strains; for comparison"    \
-    }
-
-static const brc_entry DLSM[] = {
-    {"compaction", BRC_TYPE_BOOL, FIELD(brc_model, compaction), .given = "true",
-     .meaning = "the cross term beta that makes near-incompressible and auxetic solids accurate"},
-    {"beta", BRC_TYPE_QUANTITY, "", WITHIN(0, 2), FIELD(brc_model, beta), .given = "1.06",
-     .meaning = "weight of the cross term; without effect when compaction is false"},
-    {"tau", BRC_TYPE_QUANTITY, "", ABOVE_UP_TO(0, 10), FIELD(brc_model, tau), .given = "0.15",
-     .why = "without it modes of the grid cost no energy", .meaning = "weight of the stabilisation"},
-    SMALL_ROTATIONS,
-};
-static const brc_section DLSM_SECTION = {.title = "model dlsm", .meaning = "The conservative law.", ENTRIES(DLSM)};
-static const brc_entry PUBLISHED[] = {
-    {"area_weights", BRC_TYPE_BOOL, FIELD(brc_model, area_weights), .given = "false",
-     .meaning = "least squares weighted with face area over distance instead of 1"},
-    {"rotation_stiffness", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_model, rotation_stiffness), .given = "1",
-     .meaning = "factor on the published stiffness against spurious rotation"},
-    {"couple_modulus", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_model, couple_modulus), .given = "0",
-     .meaning = "of mu: holds the frames of elements to the solid as it turns, which the published law (0) does not; "
-                "0.5 is enough at strains of 20 %; dynamic stages only"},
-    SMALL_ROTATIONS,
-};
-static const brc_section PUBLISHED_SECTION = {.title = "model dlsm-published",
-                                              .meaning = "The law as Andre, Girardot and Hubert published it in 2019.",
-                                              ENTRIES(PUBLISHED)};
-static const brc_entry CBM[] = {
-    {"nu", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(-1, 0.5), FIELD(brc_model, beam_poisson), .given = "0.3",
-     .meaning = "Poisson's ratio of the beams; hardly matters"},
-    {"keep_isolated", BRC_TYPE_BOOL, FIELD(brc_model, keep_isolated), .given = "false",
-     .meaning = "hold elements without bonds still instead of refusing the body"},
-    {"polish", BRC_TYPE_BOOL, FIELD(brc_model, polish), .given = "false",
-     .meaning = "correct what the laws give on the sample itself (a box) or on a cube packed like the body, by a few "
-                "static solves"},
-};
-static const brc_section CBM_SECTION = {
-    .title = "model cbm",
-    .meaning = "The cohesive beam model of Nguyen, Andre and Huger 2019, in potential form.",
-    ENTRIES(CBM)};
+#define BRC_MODEL(kind, name, word, meaning) extern const brc_section brc_schema_##word;
+#include "models.def"
+#undef BRC_MODEL
+#define BRC_MODEL(kind, name, word, what)                                                                              \
+    {name, BRC_TYPE_STRUCT, .section = &brc_schema_##word, .value = kind, .meaning = what},
 static const brc_entry MODEL[] = {
-    {"dlsm", BRC_TYPE_STRUCT, .section = &DLSM_SECTION, .value = BRC_MODEL_DLSM,
-     .meaning = "conservative distinct lattice spring model on Voronoi cells"},
-    {"dlsm-published", BRC_TYPE_STRUCT, .section = &PUBLISHED_SECTION, .value = BRC_MODEL_DLSM_PUBLISHED,
-     .meaning = "the published, not conservative form, for comparison"},
-    {"cbm", BRC_TYPE_STRUCT, .section = &CBM_SECTION, .value = BRC_MODEL_CBM,
-     .meaning = "spheres joined by beams; bodies need `beams`"},
+#include "models.def"
 };
+#undef BRC_MODEL
 const brc_section brc_schema_model = {.title = "model",
                                       .meaning = "The law between the elements.",
                                       ENTRIES(MODEL),

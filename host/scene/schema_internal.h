@@ -66,4 +66,13 @@ extern const brc_section brc_schema_platens;
 extern const brc_section brc_schema_jaws;
 extern const brc_section brc_schema_rollers;
 
+/* A key that several models have. */
+#define BRC_SMALL_ROTATIONS                                                                                            \
+    {                                                                                                                  \
+        "small_rotations", BRC_TYPE_BOOL, FIELD(brc_model, small_rotations),                                           \
+            .given = "false",                                                                                          \
+            .meaning =                                                                                                 \
+                "true: the law linearised about the reference: a body that turns grows and strains; for comparison"    \
+    }
+
 #endif

@@ -34,10 +34,10 @@ brc_status brc_bench_take_number(brc_context *context, const char *name, const c
 brc_status brc_bench_take_models(brc_context *context, int n, const char *const *names, brc_model_kind *out)
 {
     for (int k = 0; k < n; ++k) {
-        int kind = BRC_MODEL_DLSM;
-        while (kind <= BRC_MODEL_CBM && strcmp(names[k], brc_model_name((brc_model_kind)kind)) != 0)
+        int kind = 0;
+        while (kind < BRC_N_MODELS && strcmp(names[k], brc_model_name((brc_model_kind)kind)) != 0)
             ++kind;
-        if (kind > BRC_MODEL_CBM)
+        if (kind == BRC_N_MODELS)
             return BRC_FAIL(context, BRC_BAD_INPUT,
                             "breccia bench: no model '%s', expected dlsm, dlsm-published or cbm", names[k]);
         out[k] = (brc_model_kind)kind;

@@ -273,7 +273,7 @@ static brc_status tell_precision_and_step(brc_context *context, const brc_scene 
  * of them. */
 static double model_error(brc_model_kind model, int n, const brc_price_curve *curve, double now)
 {
-    for (int k = 0; k < n && model == BRC_MODEL_CBM; ++k)
+    for (int k = 0; k < n && brc_model_traits_of(model)->spheres; ++k)
         if (strcmp(curve[k].problem, "tension") == 0) return brc_price_curve_error(&curve[k], now);
     return 0;
 }
@@ -316,13 +316,13 @@ brc_status brc_price_judge(brc_context *context, const brc_scene *scene, const b
 /* What was measured of bodies of a model that break, as rows of docs/notebook/fracture.md say. */
 static const char *measured_of(brc_model_kind model, bool by_bond, bool softens)
 {
-    if (model == BRC_MODEL_CBM)
+    if (brc_model_traits_of(model)->spheres)
         return softens ? "energy per area of a crack 0.91 to 1.06 of the fracture energy given, at coordination "
                          "numbers 6 to 13 (docs/notebook/fracture.md, \"Measured on beams\")"
                        : "strength in tension within 0.6 %, discs pressed across up to 6 % below it with few bonds, "
                          "twisted rods 7 to 15 % above; a crack's energy is what strength and spheres "
                          "make of it (docs/notebook/beams-tests.md)";
-    if (model == BRC_MODEL_DLSM_PUBLISHED || !by_bond)
+    if (!brc_model_traits_of(model)->deforms || !by_bond)
         return "only the onset, at the strength in an even pull; a crack's energy is what strength and cells make of "
                "it (docs/notebook/fracture.md)";
     return softens ? "peak loads of notched parts +3 to +7 % with regular cells or 30 cells in the notch, +11 to +13 % "
@@ -337,7 +337,7 @@ static const char *measured_of(brc_model_kind model, bool by_bond, bool softens)
 /* The error class is of elastic solids; a line for every kind of breaking in the scene. */
 static void tell_breaking(FILE *details, const brc_scene *scene, const brc_setup *setup)
 {
-    const char *said[BRC_MODEL_CBM + 1] = {NULL};
+    const char *said[BRC_N_MODELS] = {NULL};
     if (!scene->has_fracture) return;
     fprintf(details, "what breaks: the errors above are of the elastic solid; no error of this scene's cracks or "
                      "strength is known\n");

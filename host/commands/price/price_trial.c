@@ -49,7 +49,8 @@ static double output_of(const brc_trial_stage *stage)
 static double worst_growth(const brc_scene *scene)
 {
     double factor = 1;
-    if (scene->has_fracture) factor += (scene->model.kind == BRC_MODEL_CBM ? beams_break : cells_break) - 1;
+    if (scene->has_fracture)
+        factor += (brc_model_traits_of(scene->model.kind)->spheres ? beams_break : cells_break) - 1;
     for (int32_t k = 0; scene->has_fracture && k < scene->n_materials; ++k)
         if (scene->materials[k].fracture_energy > 0) factor = fmax(factor, faces_soften);
     if (scene->has_contact) factor += surfaces_touch - 1;
@@ -175,7 +176,7 @@ static double looked_share(const brc_scene *scene, const brc_setup *setup, const
 /* On the host, with so many more broken bonds than in the trial. */
 static double host_with(const brc_scene *scene, const brc_trial *trial, double more)
 {
-    const bool drawn = scene->model.kind != BRC_MODEL_CBM && scene->output.picture;
+    const bool drawn = !brc_model_traits_of(scene->model.kind)->spheres && scene->output.picture;
     const double stepping = (double)trial->stepping_bytes + more * host_of_break,
                  ending = (double)trial->ending_bytes + more * (event_of_break + (drawn ? drawn_of_break : 0));
     return fmax((double)trial->host_bytes, fmax(stepping, ending));
@@ -241,10 +242,10 @@ static memory add_up(const brc_scene *scene, const brc_setup *setup, const brc_t
     m.device += device;
     m.resident += host + device; /* of the cpu device; a card has its own */
     m.disk += b.more * row_of_break;
-    if (scene->model.kind != BRC_MODEL_CBM)
+    if (!brc_model_traits_of(scene->model.kind)->spheres)
         m.disk += b.in_frames * corners_of_break + (b.in_frames > 0 || !was_looked ? cells_anew(setup, trial) : 0);
     if (scene->output.crack_surface)
-        m.disk += b.in_frames * (scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face);
+        m.disk += b.in_frames * (brc_model_traits_of(scene->model.kind)->spheres ? frame_of_beam : frame_of_face);
     return m;
 }
 
@@ -261,9 +262,11 @@ static void tell_total(FILE *details, const brc_device_request *request, const m
 static void tell_broken(FILE *details, const brc_scene *scene, const brc_setup *setup, const brc_trial *trial,
                         const brc_coarse *looked)
 {
-    const double n_bonds = (double)brc_setup_n_bonds(setup),
-                 frame = scene->model.kind == BRC_MODEL_CBM ? frame_of_beam : frame_of_face + corners_of_break;
-    const double anew = scene->model.kind == BRC_MODEL_CBM ? 0 : cell_anew * (double)brc_setup_n_elements(setup);
+    const double n_bonds = (double)brc_setup_n_bonds(setup), frame = brc_model_traits_of(scene->model.kind)->spheres
+                                                                         ? frame_of_beam
+                                                                         : frame_of_face + corners_of_break;
+    const double anew =
+        brc_model_traits_of(scene->model.kind)->spheres ? 0 : cell_anew * (double)brc_setup_n_elements(setup);
     int64_t n_frames = 0;
     for (int32_t k = 0; k < trial->n_stages; ++k)
         n_frames += trial->stages[k].frames_planned;

@@ -50,7 +50,7 @@ static brc_status prepare(drift *d, brc_simulation *simulation)
     BRC_TRY(BRC_ALLOCATE(d->context, &d->mass, domain->n_elements, "masses of the drift"));
     BRC_TRY(BRC_ALLOCATE(d->context, &d->displacement, 3 * domain->n_elements, "displacements of the drift"));
     BRC_TRY(BRC_ALLOCATE(d->context, &d->velocity, 3 * domain->n_elements, "velocities of the drift"));
-    const bool turns = scene->model.kind != BRC_MODEL_DLSM;
+    const bool turns = !brc_model_traits_of(scene->model.kind)->deforms;
     if (turns) BRC_TRY(BRC_ALLOCATE(d->context, &d->inertia, domain->n_elements, "inertia of the drift"));
     if (turns) BRC_TRY(BRC_ALLOCATE(d->context, &d->orientation, 4 * domain->n_elements, "orientations of the drift"));
     if (turns) BRC_TRY(BRC_ALLOCATE(d->context, &d->spin, 3 * domain->n_elements, "spins of the drift"));

@@ -170,7 +170,8 @@ static brc_status write_orientation(const frame_part *p)
     BRC_TRY(BRC_ALLOCATE(p->context, &orientation, 4 * p->elements.n, "orientation of a frame"));
     for (int64_t e = 0; e < p->elements.n; ++e)
         orientation[4 * e] = 1;
-    if (brc_frame_is_sphere(p->domain) || brc_simulation_scene(p->simulation)->model.kind != BRC_MODEL_DLSM)
+    if (brc_frame_is_sphere(p->domain) ||
+        !brc_model_traits_of(brc_simulation_scene(p->simulation)->model.kind)->deforms)
         status = brc_simulation_orientation(p->simulation, orientation, NULL);
     if (status == BRC_OK) status = write_field(p, "orientation", 4, orientation);
     brc_memory_free(orientation);

@@ -167,7 +167,7 @@ static brc_status prepare_point(brc_sensors *sensors, int32_t s)
 
 static brc_status prepare_turn(brc_sensors *sensors, int32_t s)
 {
-    if (sensors->scene->model.kind != BRC_MODEL_DLSM) return prepare_point(sensors, s);
+    if (!brc_model_traits_of(sensors->scene->model.kind)->deforms) return prepare_point(sensors, s);
     return BRC_FAIL(sensors->context, BRC_BAD_INPUT,
                     "sensor %s: elements of dlsm have no rotations of their own; use face_twist",
                     sensors->scene->sensors[s].name);

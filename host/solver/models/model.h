@@ -1,5 +1,5 @@
 /* A model of bonds: what its elements are and what forces act between them. One descriptor each, in a folder of its
- * own, and one line in models.def; the rest of the solver asks the descriptor and names no model. */
+ * own, and one line in host/scene/models.def; the rest of the solver asks the descriptor and names no model. */
 #ifndef BRC_SOLVER_MODELS_MODEL_H
 #define BRC_SOLVER_MODELS_MODEL_H
 

@@ -1,15 +1,15 @@
-/* The models that are there, of models.def. */
+/* The models that are there, of host/scene/models.def. */
 #include "model.h"
 
-#define BRC_BOND_MODEL(kind, descriptor) extern const brc_bond_model descriptor;
-#include "models.def"
-#undef BRC_BOND_MODEL
+#define BRC_MODEL(kind, name, word, meaning) extern const brc_bond_model brc_##word;
+#include "../../scene/models.def"
+#undef BRC_MODEL
 
-#define BRC_BOND_MODEL(kind, descriptor) [kind] = &descriptor,
+#define BRC_MODEL(kind, name, word, meaning) [kind] = &brc_##word,
 static const brc_bond_model *const models[] = {
-#include "models.def"
+#include "../../scene/models.def"
 };
-#undef BRC_BOND_MODEL
+#undef BRC_MODEL
 
 const brc_bond_model *brc_bond_model_of(brc_model_kind kind)
 {
