@@ -1,8 +1,14 @@
 """What a Python observer costs a run: the same scene without one and with one that looks at the velocities every so many steps and would stop the run.
 
 PYTHONPATH=python/src BRECCIA_LIBRARY=build/release/lib/libbreccia.so python3 bench/python_observer.py [--elements 10000] [--steps 400] [--every 20] [--pairs 7]
+
+--count: instructions by valgrind in place of seconds, which a busy machine does not change. Valgrind knows no AVX-512: the steps are those of a lesser instruction set.
 """
 import argparse
+import os
+import re
+import subprocess
+import sys
 import time
 
 import numpy as np
@@ -43,12 +49,33 @@ def processor_seconds(scene, every):
         return time.process_time() - start, looks[0]
 
 
+def instructions(asked, steps, every):
+    """Of a whole process that does so many steps, by valgrind."""
+    line = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", sys.executable, "-B", __file__, "--once",
+            "--elements", str(asked.elements), "--steps", str(steps), "--every", str(every)]
+    ran = subprocess.run(line, capture_output=True, text=True, check=True, env={**os.environ, "PYTHONHASHSEED": "0", "OMP_NUM_THREADS": "1"})
+    return int(re.findall(r"I\s+refs:\s+([\d,]+)", ran.stderr)[0].replace(",", ""))
+
+
+def count(asked):
+    one, plain, observed = instructions(asked, 1, 0), instructions(asked, asked.steps, 0), instructions(asked, asked.steps, asked.every)
+    step, looks = (plain - one) / (asked.steps - 1), asked.steps // asked.every + 1
+    print(f"{asked.elements} elements, {asked.steps} steps of {step:.3e} instructions, {looks} looks: {1 + (observed - plain) / (plain - one):.4f} times the instructions of the steps without; "
+          f"a look takes {(observed - plain) / looks / step:.4f} of a step")
+
+
 def main():
     options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     for name, value in (("elements", 10000), ("steps", 400), ("every", 20), ("pairs", 7)):
         options.add_argument("--" + name, type=int, default=value)
+    options.add_argument("--count", action="store_true", help="instructions by valgrind")
+    options.add_argument("--once", action="store_true", help="one run and no figure: what --count counts")
     asked = options.parse_args()
+    if asked.count:
+        return count(asked)
     scene = breccia.Scene(SCENE, set={"bodies.0.fill.noisy_grid.elements": asked.elements, "stages.0.solver.dynamic.steps": asked.steps})
+    if asked.once:
+        return processor_seconds(scene, asked.every)
     processor_seconds(scene, 0)
     plain, observed = [], []
     for _ in range(asked.pairs):

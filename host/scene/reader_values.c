@@ -250,12 +250,17 @@ static void read_material(brc_reader *reader, const brc_entry *entry, const brc_
         return;
     }
     const char *near = NULL;
-    for (int i = 0; i < scene->n_materials && !near; ++i) {
-        const char *const one[1] = {scene->materials[i].name};
-        near = brc_problems_nearest(reader->problems, node->text, 1, one);
+    char known[200] = "";
+    size_t length = 0;
+    for (int i = 0; i < scene->n_materials; ++i) {
+        const char *const name = scene->materials[i].name;
+        if (!near) near = brc_problems_nearest(reader->problems, node->text, 1, &name);
+        if (length + strlen(name) + sizeof "; known: " >= sizeof known) continue;
+        length +=
+            (size_t)snprintf(known + length, sizeof known - length, "%s%s", length == 0 ? "; known: " : ", ", name);
     }
-    brc_problems_add(reader->problems, node->mark, "%s: there is no material '%s'%s%s%s; define it under materials",
-                     entry->key, node->text, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+    brc_problems_add(reader->problems, node->mark, "%s: there is no material '%s'%s%s%s%s; define it under materials",
+                     entry->key, node->text, near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "", known);
 }
 
 static brc_status read_table(brc_reader *reader, const brc_entry *entry, const brc_node *node, brc_table *out)
