@@ -106,6 +106,10 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
                                        .n_threads = request->n_threads,
                                        .exact = request->exact};
     BRC_TRY(brc_setup_simulations(context, &device, &now->setup));
+    if (request->exact && brc_device_get_info(now->setup.device[0])->joins_roundings)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "--exact: this build has no cpu kernels that round each product and sum by itself; "
+                        "./quickstart build makes them");
     for (int32_t k = 0; k < now->setup.n; ++k)
         BRC_TRY(brc_free_bodies_tell(context, now->setup.split->part[k].scene, now->setup.domain[k], false));
     brc_assembly *assembly = &now->setup.assembly;

@@ -27,8 +27,9 @@ typedef struct brc_device_info {
     char driver[128];  /* platform and driver version */
     bool is_gpu;
     bool has_double;
-    int compute_units;            /* threads on the cpu */
-    int64_t memory_bytes;         /* 0: unknown */
+    bool joins_roundings; /* of a product and a sum; an opened device: `exact` or not, for want of other kernels */
+    int compute_units;    /* threads on the cpu */
+    int64_t memory_bytes; /* 0: unknown */
     int64_t largest_buffer_bytes; /* 0: no limit beyond memory (PoCL: 2 GiB was seen) */
     bool usable;
     char why_not[256]; /* when not usable: the reason and the cure */

@@ -167,6 +167,7 @@ static brc_status cpu_open(brc_device *device, const brc_device_request *request
     snprintf(device->info.name, sizeof device->info.name, "%s, %d threads, %s", processor, inside->n_threads,
              levels[level].words);
     snprintf(device->info.driver, sizeof device->info.driver, "OpenMP, instruction set %s", levels[level].level);
+    device->info.joins_roundings = strcmp(instance->level, "v3") == 0 || strcmp(instance->level, "v4") == 0;
     device->info.compute_units = inside->n_threads;
     device->lanes = instance->lanes;
     device->slice = instance->slice;

@@ -67,13 +67,19 @@ asks '*BRC_LAST_PRECISION=0*--target breccia *' brc_program run "$folder/clone/s
 asks '*BRC_LAST_PRECISION=2*--target breccia *' brc_program run "$folder/clone/scene.yaml" --precision mixed
 asks '*--target breccia brc_program *' "LAST_PRECISION=2" run "$folder/clone/scene.yaml" --device target
 asks '*--preset mpi *--target breccia-mpi *mpirun *-n 3 *breccia-mpi run *scene.yaml *' 'preset release' mpi 3 run "$folder/clone/scene.yaml"
-levels=
+levels= best=
 if [ "$(uname -m)" = x86_64 ] && grep -q '^flags.* avx2 ' /proc/cpuinfo; then
-    levels='-DBRC_ISA_LEVELS=v2;v'
+    levels='-DBRC_ISA_LEVELS=v2;v' best='-DBRC_ISA_LEVELS=v[34] '
 fi
+asks "*BRC_LAST_PRECISION=0 $best*--target breccia *" 'v2;' run "$folder/clone/scene.yaml"
+asks "*BRC_LAST_PRECISION=0 $levels*--target breccia *" LAST_PRECISION=2 run "$folder/clone/scene.yaml" --exact
 asks "*BRC_LAST_PRECISION=2 $levels*--target brc_program *" "LAST_PRECISION=0" build
 asks '*-UBRC_ISA_LEVELS -UBRC_LAST_PRECISION*--target all *ctest*' "LAST_PRECISION=0" test
 mkdir -p "$folder/clone/build/release" && : >"$folder/clone/build/release/CMakeCache.txt" # a folder that has its choice
 asks '*--preset release *--target breccia *' LAST_PRECISION run "$folder/clone/scene.yaml"
 asks '*BRC_LAST_PRECISION=2*' ISA_LEVELS run "$folder/clone/scene.yaml" --precision=single
+echo 'BRC_ISA_LEVELS:STRING=v3' >"$folder/clone/build/release/CMakeCache.txt" # made for a first run
+asks '*--preset release *--target breccia *' ISA_LEVELS run "$folder/clone/scene.yaml"
+asks "*$levels*--target breccia *" LAST_PRECISION run "$folder/clone/scene.yaml" -x
+asks "*BRC_LAST_PRECISION=2 $levels*--target brc_program *" LAST_PRECISION=0 build
 exit "$failures"
