@@ -4,6 +4,7 @@
  *     DIR/00000/...     a folder a run, as `breccia run` writes it; log.txt: what it told; study.txt: of what it is
  *     DIR/table.csv     a row a run: its keys, how it ended, its measures
  *     DIR/means.csv     runs that differ only in what is averaged over, together
+ *     DIR/MEASURE.png   means against the first key that varies (study_plots.c), where gnuplot is installed
  *     DIR/fits.csv      the laws that were asked for, a row a parameter of each */
 #ifndef BRC_COMMANDS_STUDY_H
 #define BRC_COMMANDS_STUDY_H
@@ -126,6 +127,11 @@ brc_status brc_study_group(brc_context *context, const brc_study *study, const c
 void brc_study_groups_free(brc_study_groups *groups);
 brc_status brc_study_write_fits(brc_context *context, const brc_study *study, const char *folder,
                                 const brc_study_outcome *outcome);
+/* The picture of a measure, folder/MEASURE.png; none of fewer than two values. groups: of what is not averaged over;
+ * room: [n_runs]. */
+brc_status brc_study_draw(brc_context *context, const brc_study *study, const char *folder,
+                          const brc_study_outcome *outcome, const brc_study_groups *groups, const char *measure,
+                          double *room);
 bool brc_study_is_averaged(const brc_study_key *key);
 /* A cell of a table, in quotation marks where it has to be. */
 struct brc_text;

@@ -138,7 +138,10 @@ brc_status brc_study_write(brc_context *context, const brc_study *study, const c
     BRC_TRY_OR(cleanup, brc_text_write_into(&table, folder, "table.csv"));
     add_means(&means, study, outcome, &groups, x);
     BRC_TRY_OR(cleanup, brc_text_write_into(&means, folder, "means.csv"));
-    if (study->n_fits > 0) status = brc_study_write_fits(context, study, folder, outcome);
+    if (study->n_fits > 0) BRC_TRY_OR(cleanup, brc_study_write_fits(context, study, folder, outcome));
+    const names all = measures_of(study, outcome);
+    for (int m = 0; m < all.n && status == BRC_OK; ++m)
+        status = brc_study_draw(context, study, folder, outcome, &groups, all.name[m], x);
 cleanup:
     brc_memory_free(x);
     brc_study_groups_free(&groups);

@@ -255,6 +255,8 @@ with tempfile.TemporaryDirectory() as folder:
         and f"{RUNS} of {RUNS + REFUSED} runs are done" in whole.stdout,
         f"exit code {whole.returncode}: {whole.stdout}{whole.stderr}",
     )
+    with open(os.path.join(folder, "whole", "most.png"), "rb") as file:
+        expect(file.read(8) == b"\x89PNG\r\n\x1a\n", "most.png is no picture")
     tables(folder)
     killed_twice(folder)
     array_job(folder)
