@@ -4,6 +4,7 @@
 #include "../base/memory.h"
 #include "../output/pictures/gnuplot.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
