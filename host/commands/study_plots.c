@@ -80,7 +80,7 @@ static void draw_means(const plot *p, brc_text *script)
     }
     brc_text_add(script,
                  "END\nset xlabel '%s%s%s%s' noenhanced\nset ylabel '%s' noenhanced\nset offsets graph 0.05, graph "
-                 "0.05, graph 0.05, graph 0.05\nset key bottom right\n"
+                 "0.05, graph 0.05, graph 0.05\nset format xy '%%.4g'\nset key above\n"
                  "plot $runs with points pointtype 6 pointsize 0.6 linecolor '#bbbbbb' title 'runs', "
                  "$means with yerrorbars pointtype 7 linecolor '#4477aa' title 'means, 95 %%'\n",
                  p->study->keys[p->key].key, unit[0] ? " [" : "", unit, unit[0] ? "]" : "", p->measure);
@@ -100,7 +100,8 @@ static void draw_shares(const plot *p, brc_text *script)
     for (int i = 0; i < n; ++i)
         brc_text_add(script, "%.9g %.9g\n", p->x[i], (i + 0.5) / n);
     brc_text_add(script,
-                 "END\nset xlabel '%s' noenhanced\nset ylabel 'share of the runs'\nset yrange [0:1]\nunset key\n"
+                 "END\nset xlabel '%s' noenhanced\nset ylabel 'share of the runs'\nset yrange [0:1]\nset offsets graph "
+                 "0.05, graph 0.05\nset format x '%%.4g'\nset xtics rotate by -30\nunset key\n"
                  "plot $runs with points pointtype 7 linecolor '#4477aa'\n",
                  p->measure);
 }
