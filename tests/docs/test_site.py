@@ -1,8 +1,11 @@
-"""The site builds without a warning; no link in it is dead; its pages fetch nothing from elsewhere."""
+"""The site builds without a warning; no link in it is dead; its pages fetch nothing from elsewhere; the page of scenes lists
+all keys."""
 
 import html.parser
+import json
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 import urllib.parse
@@ -61,6 +64,15 @@ def findings_of(folder):
     return findings
 
 
+def keys_of(schema):
+    """Names of all properties within a part of a JSON Schema."""
+    for name, part in schema.items() if isinstance(schema, dict) else ((None, part) for part in schema):
+        if name == "properties":
+            yield from part
+        if isinstance(part, (dict, list)):
+            yield from keys_of(part)
+
+
 def made_up(text):
     """The findings in a folder of one page."""
     with tempfile.TemporaryDirectory() as folder:
@@ -91,5 +103,12 @@ with tempfile.TemporaryDirectory() as broken:
     if code == 0 or "nowhere" not in said:
         sys.exit("a link to a page that is not there passes the build")
 found = findings_of(out)
+schema = subprocess.run([os.environ["BRC_PROGRAM"], "schema"], capture_output=True, text=True, check=True).stdout
+keys = set(keys_of(json.loads(schema)["$defs"]))
+with open(out + "/reference/scene/README.html", encoding="utf-8") as file:
+    listed = file.read().partition('id="index-of-keys"')[2]
+found += [f"no key {key} in the index" for key in sorted(keys) if f'<span class="pre">{key}</span></code>: <a' not in listed]
+if len(keys) < 100:
+    found.append(f"{len(keys)} keys in the schema")
 print("\n".join(found) or f"{sum(len(files) for _, _, files in os.walk(out))} files, no dead link, nothing fetched")
 sys.exit(bool(found))
