@@ -95,8 +95,9 @@ typedef struct brc_bond_model {
     brc_surface surface;
     brc_model_effect effect[2]; /* name NULL: no more */
 
-    /* Before arrays are made; NULL: nothing. Then what its bonds have on the device. */
+    /* Before arrays are made, and at the end; NULL: nothing. Then what its bonds have on the device. */
     brc_status (*create)(struct brc_simulation *s);
+    void (*free)(struct brc_simulation *s);
     brc_status (*upload)(struct brc_simulation *s);
     /* The passes of the law, in the scopes of the run and of an evaluation; and of loads on faces (NULL: it has no
      * faces). */

@@ -106,6 +106,7 @@ void brc_simulation_free(brc_simulation **simulation)
     brc_simulation_fields_free(s);
     brc_loads_free(&s->loads);
     brc_effects_free(s);
+    if (s->model->free) s->model->free(s);
     brc_look_free(s);
     brc_ahead_free(s);
     brc_geometry_free(s);

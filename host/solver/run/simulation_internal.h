@@ -147,6 +147,7 @@ struct brc_simulation {
     brc_context *context;
     const brc_scene *scene;
     const brc_bond_model *model;
+    void *of_model; /* what it keeps of its own */
     const brc_domain *domain;
     brc_device *device;
     brc_layout *layout;
