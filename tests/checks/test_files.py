@@ -7,15 +7,14 @@ LONGEST = 500
 LONGEST_FUNCTION = 80  # lines from the signature to the closing brace
 # Files and functions that are longer, with the most they may have. The list only shrinks.
 LONGER = {
-    "kernels/convex_overlap.h": 540, "kernels/softening.cl": 690, "kernels/vec.h": 515,
-    "host/scene/scene.h": 530, "host/output/recorder.c": 540, "host/output/pictures/picture.c": 505,
-    "host/solver/models/dlsm/cell_softening.c": 520, "host/solver/statics/statics.c": 560, "host/solver/statics/modes.c": 510,
+    "kernels/convex_overlap.h": 540, "kernels/softening.cl": 690,
+    "host/scene/scene.h": 506, "host/output/recorder.c": 534, "host/output/pictures/picture.c": 501,
     "host/commands/command_bench.c": 575, "tests/solver/statics/test_multigrid.c": 515,
     "tests/commands/test_several_models.c": 735, "tests/preprocess/shapes/test_shapes.c": 545,
 }
 LONGER_FUNCTIONS = {
     ("host/solver/statics/gmres.c", "brc_gmres"): 90,
-    ("host/solver/statics/modes.c", "rayleigh_ritz"): 90, ("host/commands/calibrate/strength_test.c", "brc_strength_test"): 100,
+    ("host/commands/calibrate/strength_test.c", "brc_strength_test"): 100,
     ("kernels/contact_cells.cl", "contact_cells"): 140, ("kernels/contact.cl", "contact_spheres"): 100,
     ("kernels/softening.cl", "soft_move"): 83,
     ("tests/solver/models/published/test_published_breaks.c", "evaluate"): 90,

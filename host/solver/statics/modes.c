@@ -5,7 +5,7 @@
  * are in the first block, so they converge at once and are left out of the result. */
 #include "../../base/random.h"
 #include "multigrid/multigrid.h"
-#include <lapacke.h>
+#include "ritz.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,8 +25,6 @@ static const double rigid_part = 1e-6;
 /* Pairs whose residual falls below this add no directions to the search space any more, nor do rigid motions: what is
  * left of them is rounding, and scaled up to a direction it has Ritz values that belong to nothing. */
 static const double finished = 1e-9;
-/* Directions of the search space whose norm falls below this part of the largest are dropped. */
-static const double dependent = 1e-13;
 
 /* Column-major blocks of m host vectors of length n, in rows. */
 typedef struct mode_space {
@@ -200,103 +198,6 @@ static brc_status gram_matrix(mode_space *t, int count, double *const *u, double
     return BRC_OK;
 }
 
-typedef struct ritz_pair {
-    double value;
-    int column;
-} ritz_pair;
-static int compare_pairs(const void *left, const void *right)
-{
-    const ritz_pair *a = left, *b = right;
-    return a->value < b->value ? -1 : a->value > b->value;
-}
-
-/* Rayleigh-Ritz: the m lowest pairs of the projected problem. k_small, g_small [count][count]; coefficients
- * [m][count]. */
-static brc_status rayleigh_ritz(mode_space *t, int count, const double *k_small, const double *g_small, double *values,
-                                double *coefficients)
-{
-    brc_context *context = t->s->context;
-    double *basis = NULL, *spread = NULL, *reduced = NULL, *work = NULL, *imaginary = NULL;
-    ritz_pair *pairs = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &basis, count * count, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &spread, 2 * count, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &reduced, count * count, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &work, count * count, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &imaginary, count, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &pairs, count, "modes"));
-    /* scale to unit diagonal, then keep the well-conditioned directions of the metric */
-    double *scale = spread + count;
-    for (int i = 0; i < count; ++i)
-        scale[i] = g_small[i * count + i] > 0 ? 1 / sqrt(g_small[i * count + i]) : 0;
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j)
-            basis[i * count + j] = 0.5 * (g_small[i * count + j] + g_small[j * count + i]) * scale[i] * scale[j];
-    if (LAPACKE_dsyevd(LAPACK_ROW_MAJOR, 'V', 'U', count, basis, count, spread) != 0) {
-        status = BRC_FAIL(context, BRC_INTERNAL, "LAPACK could not diagonalise the metric of the modes");
-        goto cleanup;
-    }
-    int kept = 0;
-    for (int j = 0; j < count; ++j) {
-        if (spread[j] <= dependent * spread[count - 1]) continue;
-        for (int i = 0; i < count; ++i)
-            work[i * count + kept] = basis[i * count + j] * scale[i] / sqrt(spread[j]);
-        ++kept;
-    }
-    /* reduced = work^T K work */
-    for (int a = 0; a < count; ++a)
-        for (int j = 0; j < kept; ++j) {
-            double sum = 0;
-            for (int b = 0; b < count; ++b)
-                sum += k_small[a * count + b] * work[b * count + j];
-            basis[a * count + j] = sum;
-        }
-    for (int i = 0; i < kept; ++i)
-        for (int j = 0; j < kept; ++j) {
-            double sum = 0;
-            for (int a = 0; a < count; ++a)
-                sum += work[a * count + i] * basis[a * count + j];
-            reduced[i * kept + j] = sum;
-        }
-    double *vectors = reduced;
-    int failed;
-    if (!t->s->model->statics->symmetric) {
-        vectors = basis;
-        failed = LAPACKE_dgeev(LAPACK_ROW_MAJOR, 'N', 'V', kept, reduced, kept, spread, imaginary, NULL, kept, vectors,
-                               kept);
-    } else {
-        for (int i = 0; i < kept; ++i)
-            for (int j = 0; j < i; ++j)
-                reduced[i * kept + j] = reduced[j * kept + i] = 0.5 * (reduced[i * kept + j] + reduced[j * kept + i]);
-        failed = LAPACKE_dsyevd(LAPACK_ROW_MAJOR, 'V', 'U', kept, reduced, kept, spread);
-    }
-    if (failed || kept < t->m) {
-        status =
-            BRC_FAIL(context, BRC_PHYSICS_STOPPED, "the search space of the modes collapsed to %d directions", kept);
-        goto cleanup;
-    }
-    for (int j = 0; j < kept; ++j)
-        pairs[j] = (ritz_pair){spread[j], j};
-    qsort(pairs, (size_t)kept, sizeof *pairs, compare_pairs);
-    for (int k = 0; k < t->m; ++k) {
-        values[k] = pairs[k].value;
-        for (int a = 0; a < count; ++a) {
-            double sum = 0;
-            for (int i = 0; i < kept; ++i)
-                sum += work[a * count + i] * vectors[i * kept + pairs[k].column];
-            coefficients[k * count + a] = sum;
-        }
-    }
-cleanup:
-    brc_memory_free(basis);
-    brc_memory_free(spread);
-    brc_memory_free(reduced);
-    brc_memory_free(work);
-    brc_memory_free(imaginary);
-    brc_memory_free(pairs);
-    return status;
-}
-
 /* fresh_k = sum over columns from `from` of coefficient * column. */
 static void combine(mode_space *t, int count, int from, double *const *columns, const double *coefficients, double *out)
 {
@@ -403,7 +304,8 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
             if (active[k] && round > 1) u[count] = t->p + k * t->n, ku[count++] = t->kp + k * t->n;
         BRC_TRY_OR(cleanup, gram_matrix(t, count, u, ku, NULL, k_small));
         BRC_TRY_OR(cleanup, gram_matrix(t, count, u, u, t->mass, g_small));
-        BRC_TRY_OR(cleanup, rayleigh_ritz(t, count, k_small, g_small, values, coefficients));
+        BRC_TRY_OR(cleanup, brc_rayleigh_ritz(t->s->context, t->s->model->statics->symmetric, t->m, count, k_small,
+                                              g_small, values, coefficients));
         if (count > m) { /* directions: the part of the new vectors outside the old ones */
             combine(t, count, m, u, coefficients, t->fresh);
             combine(t, count, m, ku, coefficients, t->k_fresh);

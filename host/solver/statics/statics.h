@@ -62,6 +62,11 @@ brc_status brc_statics_failure(int32_t n, brc_simulation *const *part, double *r
 /* The refusals of a key that scales the loads of the stage: BRC_BAD_INPUT. */
 brc_status brc_statics_refuse_unscalable(int32_t n, brc_simulation *const *part, const char *key);
 
+extern const brc_field_table brc_solve_fields;
+/* Vectors, pieces and the blocks of the preconditioner; a failure leaves what was made for the other. */
+brc_status brc_solve_vectors_create(brc_simulation *s, brc_solve_vectors *v);
+void brc_solve_vectors_free(brc_solve_vectors *v);
+
 /* y += a x; y = x + a y; x.y, the rotations' part times `weight`; to = from. */
 brc_status brc_unknowns_add(brc_simulation *s, double a, brc_unknowns x, brc_unknowns y);
 brc_status brc_unknowns_scale_add(brc_simulation *s, brc_unknowns x, double a, brc_unknowns y);

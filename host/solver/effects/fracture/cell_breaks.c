@@ -113,6 +113,32 @@ static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
                       BRC_PASS(&c->share, "cells_share", "step per_weight list"));
 }
 
+/* Bonds that break at once take what their strength and length hold. */
+static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
+{
+    const brc_domain *d = s->domain;
+    double sum = 0;
+    int64_t n = 0;
+    for (int64_t b = 0; b < d->n_bonds; ++b) {
+        if (strengths->energy[b] > 0 || !(strengths->tension[b] > 0)) continue;
+        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
+        double branch[3];
+        for (int c = 0; c < 3; ++c)
+            branch[c] = d->position[3 * j + c] - d->position[3 * i + c];
+        sum += strengths->tension[b] * strengths->tension[b] *
+               sqrt(branch[0] * branch[0] + branch[1] * branch[1] + branch[2] * branch[2]) /
+               (s->elastic[s->material_of_element[i]].young + s->elastic[s->material_of_element[j]].young);
+        ++n;
+    }
+    if (n == 0) return;
+    s->fracture->implied_energy = sum / (double)n;
+    brc_log(s->context, BRC_LOG_INFO,
+            "fracture: bonds break at once; strength and cells imply a fracture energy of about sigma_f^2 L / (2 E) = "
+            "%.3g J/m^2, which changes with the cells "
+            "(`fracture_energy` of a strength gives one that does not)",
+            s->fracture->implied_energy);
+}
+
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
     brc_strengths strengths = {0};
@@ -126,6 +152,7 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     BRC_TRY_OR(cleanup, make_passes(s, s->fracture->cells));
     BRC_TRY_OR(cleanup, s->model->breaking->create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
+    if (!s->fracture->cells->by_element) tell_implied(s, &strengths);
     BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
     BRC_TRY_OR(cleanup, brc_closed_faces_create(s));
 cleanup:

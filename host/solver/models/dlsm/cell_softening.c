@@ -112,31 +112,6 @@ static double norm3(const double *x)
     return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
-/* Bonds that break at once take what their strength and length hold. */
-static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
-{
-    const brc_domain *d = s->domain;
-    double sum = 0;
-    int64_t n = 0;
-    for (int64_t b = 0; b < d->n_bonds; ++b) {
-        if (strengths->energy[b] > 0 || !(strengths->tension[b] > 0)) continue;
-        const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
-        double branch[3];
-        for (int c = 0; c < 3; ++c)
-            branch[c] = d->position[3 * j + c] - d->position[3 * i + c];
-        sum += strengths->tension[b] * strengths->tension[b] * norm3(branch) /
-               (s->elastic[s->material_of_element[i]].young + s->elastic[s->material_of_element[j]].young);
-        ++n;
-    }
-    if (n == 0) return;
-    s->fracture->implied_energy = sum / (double)n;
-    brc_log(s->context, BRC_LOG_INFO,
-            "fracture: bonds break at once; strength and cells imply a fracture energy of about sigma_f^2 L / (2 E) = "
-            "%.3g J/m^2, which changes with the cells "
-            "(`fracture_energy` of a strength gives one that does not)",
-            s->fracture->implied_energy);
-}
-
 /* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those
  * snap open; tells where loads at notches want more cells. */
 static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths)
@@ -228,7 +203,6 @@ cleanup:
 
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
 {
-    if (!s->fracture->cells->by_element) tell_implied(s, strengths);
     if (!strengths->softens) return BRC_OK;
     if (!s->model->breaking->cohesion || s->fracture->cells->by_element)
         return BRC_FAIL(

@@ -1,0 +1,71 @@
+/* Vectors of static solves, on the device. */
+#include "multigrid/multigrid.h"
+#include "statics.h"
+
+static bool solves_rotations(const brc_wants *w)
+{
+    return brc_solves_rotations(w->model);
+}
+static bool solves_moves(const brc_wants *w)
+{
+    return !brc_solves_rotations(w->model);
+}
+static bool settles_rotations(const brc_wants *w)
+{
+    return w->model->statics && w->model->statics->settle;
+}
+static bool statics(const brc_wants *w)
+{
+    bool any = false;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        any |= w->scene->stages[i].solver == BRC_SOLVER_STATIC;
+    return any;
+}
+
+#define AT(member) BRC_FIELD_AT(brc_solve_vectors, member)
+#define UNKNOWNS(name, member)                                                                                         \
+    {name, brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(member.move), "static solver", "-", BRC_NOT_KEPT},               \
+    {                                                                                                                  \
+        name "_turn", brc_each_row, 3, BRC_FIELD_STATE, solves_rotations, AT(member.turn), "static solver", "-",       \
+            BRC_NOT_KEPT                                                                                               \
+    }
+static const brc_field_row rows[] = {
+    UNKNOWNS("x", x),
+    UNKNOWNS("r", r),
+    UNKNOWNS("z", z),
+    UNKNOWNS("p", p),
+    UNKNOWNS("kp", kp),
+    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m",
+     BRC_KEPT("static.before", BRC_KEEP_ALL)},
+    {"zero", brc_each_row, 3, BRC_FIELD_STATE, settles_rotations, AT(zero), "static solver", "-", BRC_NOT_KEPT},
+    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-",
+     BRC_NOT_KEPT},
+    {"theta", brc_each_row, 3, BRC_FIELD_STATE, solves_rotations, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
+    {"block", brc_each_row, 6, BRC_FIELD_STATE, solves_moves, AT(preconditioner.blocks), "preconditioner", "-",
+     BRC_NOT_KEPT},
+    {"block", brc_each_row, 21, BRC_FIELD_STATE, solves_rotations, AT(preconditioner.blocks), "preconditioner", "-",
+     BRC_NOT_KEPT},
+};
+BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows);
+
+brc_status brc_solve_vectors_create(brc_simulation *s, brc_solve_vectors *v)
+{
+    v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    v->arm = 1;
+    BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
+    if (s->domain->radius) {
+        double sum = 0;
+        for (int64_t e = 0; e < s->domain->n_elements; ++e)
+            sum += s->domain->radius[e];
+        v->arm = sum / (double)s->domain->n_elements;
+    }
+    BRC_TRY(brc_statics_find_pieces(s, v));
+    return brc_preconditioner_create(s, v);
+}
+
+void brc_solve_vectors_free(brc_solve_vectors *v)
+{
+    brc_fields_free(&brc_solve_fields, v);
+    brc_pieces_free(&v->pieces);
+    brc_multigrid_free(&v->preconditioner.multigrid);
+}
