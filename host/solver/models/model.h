@@ -14,6 +14,11 @@ struct brc_buffer;
 struct brc_solve_vectors;
 struct brc_progress;
 struct brc_hooked;
+struct brc_strengths;
+struct brc_softening_report;
+struct brc_state_store;
+struct brc_chosen;
+struct brc_ring_list;
 struct brc_field_table;
 
 /* How contact sees the surface of an element: as kernels number it (contact_body.h). */
@@ -36,7 +41,6 @@ typedef struct brc_model_breaking {
     brc_status (*create)(struct brc_simulation *s); /* arrays and passes of its own; those of all cells are there */
     int area_width;                                 /* numbers of a bond's area, which vanish with it */
     bool wide;                                      /* the forces of ring 3 change too, not only those of ring 2 */
-    bool cohesion;                                  /* faces may open against one (cell_softening.c) */
     const char *record; /* kernel that records the stresses of elements, for criteria of elements */
     /* Branches of all half-edges, for the same. */
     brc_status (*branches)(struct brc_simulation *s, struct brc_buffer **out);
@@ -55,6 +59,27 @@ typedef struct brc_model_breaking {
      * [J]. */
     brc_status (*energy_around)(struct brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
 } brc_model_breaking;
+
+/* Bonds that open against a cohesion before they break, and broken ones that still bear. Each does nothing where there
+ * are none of them in a run; NULL: never. */
+typedef struct brc_model_cohesion {
+    bool (*is_on)(const struct brc_simulation *s); /* some bonds may open */
+    brc_status (*create)(struct brc_simulation *s, const struct brc_strengths *strengths);
+    void (*free)(struct brc_simulation *s);
+    brc_status (*report)(struct brc_simulation *s, struct brc_softening_report *out);
+    brc_status (*store)(struct brc_simulation *s, struct brc_state_store *store, const struct brc_chosen *bonds);
+    /* Cells, after the forces of a step: bonds above `share` of their limit open, those that are at the end of their
+     * cohesion are marked for breaking, *n_ended of them. */
+    brc_status (*step)(struct brc_simulation *s, double share, double *n_ended);
+    brc_status (*before_breaks)(struct brc_simulation *s);
+    brc_status (*after_breaks)(struct brc_simulation *s);             /* before the forces around them are evaluated */
+    brc_status (*change)(struct brc_simulation *s, double half_kick); /* after that */
+    brc_status (*refresh)(struct brc_simulation *s);                  /* and after energies were found */
+    brc_status (*settle)(struct brc_simulation *s, const struct brc_ring_list *around); /* and shared out */
+    brc_status (*stored)(struct brc_simulation *s, double *out); /* energy that broken bonds hold [J] */
+    /* Of what steps ahead of what is known change (run/ahead.h). */
+    brc_status (*store_ahead)(struct brc_simulation *s, struct brc_state_store *store);
+} brc_model_cohesion;
 
 /* A material in a body, of which limits are asked: its first element, how many elements the body has and the sum of
  * their radii; the limit on shear of the solid. */
@@ -130,6 +155,7 @@ typedef struct brc_bond_model {
     brc_status (*break_bonds)(struct brc_simulation *s, double half_kick);
     brc_status (*limits)(struct brc_simulation *s, const brc_limit_case *of, double limit[3]);
     const brc_model_breaking *breaking; /* of cells; NULL: of spheres */
+    const brc_model_cohesion *cohesion;
 
     const struct brc_field_table *const *fields; /* tables of its own, then NULL; NULL: none */
     int n_hooked;

@@ -4,10 +4,6 @@
 #include "../effects/fracture/fracture_internal.h"
 #include "../effects/guard.h"
 #include "../effects/strikers/strikers_internal.h"
-#include "../models/cbm/beam_closure.h"
-#include "../models/cbm/beam_softening.h"
-#include "../models/dlsm/cell_softening.h"
-#include "../models/dlsm/closed_faces.h"
 #include <string.h>
 
 enum { MOST_KEPT = 64 };
@@ -85,10 +81,9 @@ static brc_status walk(brc_simulation *s, bool loading)
     a->at = 0;
     a->n = 0;
     BRC_TRY(brc_simulation_walk_motion(s, &a->store));
-    if (s->fracture->cells)
-        BRC_TRY(brc_closed_faces_store_state(s, &a->store, NULL));
-    else /* bonds of beams break on the device before anyone knows */
+    if (!s->fracture->cells) /* bonds of beams break on the device before anyone knows */
         BRC_TRY(brc_fracture_store_stretch(s, &a->store));
+    if (s->model->cohesion && s->model->cohesion->store_ahead) BRC_TRY(s->model->cohesion->store_ahead(s, &a->store));
     if (s->strikers) BRC_TRY(brc_strikers_store_state(s, &a->store));
     if (s->contact) BRC_TRY(brc_contact_store_stretch(s, &a->store));
     return brc_guard_store_looks(s, &a->store);
@@ -112,8 +107,8 @@ static bool is_of_beams(const brc_simulation *s)
 static bool may(const brc_simulation *s)
 {
     const bool worth = s->fracture && (!is_of_beams(s) || s->contact ||
-                                       (brc_wants_beam_closure(&s->wants) && !(s->ahead && s->ahead->broke)));
-    return worth && !brc_softening_is_on(s) && !brc_beam_softening_is_on(s) &&
+                                       (brc_wants_lost_beams(&s->wants) && !(s->ahead && s->ahead->broke)));
+    return worth && !(s->model->cohesion && s->model->cohesion->is_on(s)) &&
            brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise && works_beside(s);
 }
 

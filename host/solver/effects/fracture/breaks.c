@@ -1,6 +1,5 @@
 /* What broke, read from the device: events, damage, fragments. */
 #include "bond_area.h"
-#include "../../models/dlsm/cell_softening.h"
 #include "fracture_internal.h"
 #include <math.h>
 #include <stdlib.h>
@@ -58,11 +57,33 @@ int64_t brc_fracture_moment(const brc_simulation *s)
     return s->total_steps + s->fracture->n_loads;
 }
 
+brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
+{
+    *out = (brc_softening_report){0};
+    return s->model->cohesion && s->fracture ? s->model->cohesion->report(s, out) : BRC_OK;
+}
+
+/* Static stages refuse bonds that stand open: their openings would not follow. */
+static brc_status refuse_open(brc_simulation *s)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    brc_softening_report report = {0};
+    if (!s->model->cohesion || !s->model->cohesion->is_on(s) || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
+    BRC_TRY(brc_simulation_softening(s, &report));
+    if (report.n_opened > 0)
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
+            "stages only; use a dynamic stage with mass damping",
+            stage->name);
+    return BRC_OK;
+}
+
 brc_status brc_fracture_begin_stage(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     const bool dynamic = brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
-    BRC_TRY(brc_softening_begin_stage(s));
+    BRC_TRY(refuse_open(s));
     BRC_TRY(
         brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
     f->spans[f->n_spans++] = (brc_break_span){brc_fracture_moment(s), f->n_loads, s->total_time_before,

@@ -1,7 +1,5 @@
 #include "../../run/ahead.h"
 #include "cell_breaks_internal.h"
-#include "../../models/dlsm/cell_softening.h"
-#include "../../models/dlsm/closed_faces.h"
 #include "../contact/contact.h"
 #include "rings.h"
 #include "strengths.h"
@@ -139,6 +137,19 @@ static void tell_implied(brc_simulation *s, const brc_strengths *strengths)
             s->fracture->implied_energy);
 }
 
+/* Faces that open, and closed ones. */
+static brc_status create_cohesion(brc_simulation *s, const brc_strengths *strengths)
+{
+    if (!s->fracture->cells->by_element) tell_implied(s, strengths);
+    const bool opens = s->model->cohesion && !s->fracture->cells->by_element;
+    if (strengths->softens && !opens)
+        return BRC_FAIL(
+            s->context, BRC_BAD_INPUT,
+            "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "
+            "those, or remove it from the strengths and interfaces");
+    return s->model->cohesion ? s->model->cohesion->create(s, strengths) : BRC_OK;
+}
+
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
     brc_strengths strengths = {0};
@@ -152,9 +163,7 @@ brc_status brc_cell_breaks_create(brc_simulation *s)
     BRC_TRY_OR(cleanup, make_passes(s, s->fracture->cells));
     BRC_TRY_OR(cleanup, s->model->breaking->create(s));
     if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
-    if (!s->fracture->cells->by_element) tell_implied(s, &strengths);
-    BRC_TRY_OR(cleanup, brc_softening_create(s, &strengths));
-    BRC_TRY_OR(cleanup, brc_closed_faces_create(s));
+    BRC_TRY_OR(cleanup, create_cohesion(s, &strengths));
 cleanup:
     brc_strengths_free(&strengths);
     return status;
@@ -164,8 +173,6 @@ void brc_cell_breaks_free(brc_simulation *s)
 {
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
-    brc_softening_free(s);
-    brc_closed_faces_free(s);
     brc_rings_free(&c->rings);
     brc_fields_free(&brc_cell_break_fields, c);
     brc_memory_free(c);
@@ -173,6 +180,16 @@ void brc_cell_breaks_free(brc_simulation *s)
 }
 
 /* ---- the step ---- */
+
+static const brc_model_cohesion *cohesion_of(const brc_simulation *s)
+{
+    static const brc_model_cohesion none = {0};
+    return s->model->cohesion ? s->model->cohesion : &none;
+}
+static brc_status ask(brc_simulation *s, brc_status (*what)(brc_simulation *))
+{
+    return what ? what(s) : BRC_OK;
+}
 
 bool brc_cell_breaks_by_bond(const brc_simulation *s)
 {
@@ -201,7 +218,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
         BRC_TRY(brc_rings_find(s, c->rings));
         BRC_TRY(s->model->breaking->energy_around(s, c->rings, true, &more));
         *energy += more;
-        BRC_TRY(brc_closed_faces_keep(s));
+        BRC_TRY(ask(s, cohesion_of(s)->before_breaks));
         BRC_TRY(BRC_RUN(c->break_pass, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))},
                         {"width", BRC_INT(s->model->breaking->area_width)}));
         BRC_TRY(s->model->breaking->rebuild(s, &left));
@@ -257,10 +274,10 @@ static brc_status find_rings(brc_simulation *s)
  * elements. */
 static brc_status outside_energy(brc_simulation *s, double *out)
 {
-    double touching, closed;
+    double touching, closed = 0;
     BRC_TRY(brc_force_held_energy(s, out));
     BRC_TRY(brc_contact_stored(s, &touching));
-    BRC_TRY(brc_closed_faces_stored(s, &closed));
+    if (cohesion_of(s)->stored) BRC_TRY(cohesion_of(s)->stored(s, &closed));
     *out += touching + closed;
     return BRC_OK;
 }
@@ -270,8 +287,9 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     brc_breaking *f = s->fracture;
     brc_rings *rings = f->cells->rings;
     double marked, before, outside_before, after, outside, weight;
-    if (brc_softening_is_on(s))
-        BRC_TRY(brc_softening_step(s, share, &marked));
+    const brc_model_cohesion *o = cohesion_of(s);
+    if (o->is_on && o->is_on(s))
+        BRC_TRY(o->step(s, share, &marked));
     else
         BRC_TRY(mark_bonds(s, share, &marked));
     if (!(marked > 0)) return BRC_OK;
@@ -284,11 +302,10 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     if (rings->whole_force) BRC_TRY(brc_rings_keep_force(s, rings));
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
-    BRC_TRY(brc_softening_recount(s));
-    BRC_TRY(brc_closed_faces_look(s));
+    BRC_TRY(ask(s, o->after_breaks));
     BRC_TRY(find_rings(s));
     BRC_TRY(brc_force_around_breaks(s, rings));
-    BRC_TRY(brc_closed_faces_change(s, rings->whole_force ? 0 : half_kick));
+    if (o->change) BRC_TRY(o->change(s, rings->whole_force ? 0 : half_kick));
     if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
     if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
     BRC_TRY(kick_others(s, -half_kick));
@@ -296,13 +313,13 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(outside_energy(s, &outside));
     BRC_TRY(brc_rings_sum(s, &rings->around, 0, f->cells->weight, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
-    BRC_TRY(brc_softening_refresh(s));
+    BRC_TRY(ask(s, o->refresh));
     const int32_t n = rings->around.n[0];
     BRC_TRY(BRC_RUN(f->cells->share, n, {"step", BRC_INT(brc_fracture_moment(s))},
                     {"per_weight", BRC_STATE((before + outside_before - after - outside) / weight)},
                     {"list", BRC_BUF(rings->around.upto[0])}));
     BRC_TRY(brc_rings_forget(rings, &rings->around));
-    BRC_TRY(brc_softening_settle(s, &rings->around));
+    if (o->settle) BRC_TRY(o->settle(s, &rings->around));
     return brc_contact_list_bonded(s);
 }
 

@@ -1,6 +1,4 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
-#include "../../models/cbm/beam_closure.h"
-#include "../../models/cbm/beam_softening.h"
 #include "cell_breaks.h"
 #include "fracture_internal.h"
 #include <math.h>
@@ -134,6 +132,11 @@ static bool weighted(const brc_wants *w)
     return w->weighted || (w->softens && brc_wants_spheres(w));
 }
 
+bool brc_wants_lost_beams(const brc_wants *w)
+{
+    return w->scene->has_fracture && brc_wants_spheres(w) && (brc_scene_shuts(w->scene) || w->softens);
+}
+
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
 static const brc_field_row break_rows[] = {
     {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-",
@@ -148,7 +151,7 @@ static const brc_field_row break_rows[] = {
      BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
     {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_cells, AT(gone), "lost bonds", "-",
      BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_beam_closure, AT(gone), "lost beams", "-",
+    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_lost_beams, AT(gone), "lost beams", "-",
      BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
     {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-",
      BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
@@ -274,9 +277,8 @@ void brc_fracture_free(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     if (!f) return;
+    if (s->model->cohesion) s->model->cohesion->free(s);
     brc_cell_breaks_free(s);
-    brc_beam_softening_free(s);
-    brc_beam_closure_free(s);
     brc_fields_free(&brc_criterion_fields, f);
     brc_fields_free(&brc_break_fields, f);
     brc_memory_free(f->limit);

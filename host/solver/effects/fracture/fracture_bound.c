@@ -1,6 +1,6 @@
 /* What lets fracture_check pass by elements far from failure (kernels/fracture.cl): limits in common, volumes and
  * marks; and the factors of bonds that scatter or lie in an interface. */
-#include "../../models/cbm/beam_softening.h"
+#include "fracture_internal.h"
 #include "strengths.h"
 #include <math.h>
 
@@ -90,10 +90,10 @@ brc_status brc_fracture_bound(brc_simulation *s)
     double *weakest = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
-    const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_softening.c */
+    const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_breaks.c */
     f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
     if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));
-    if (softens) BRC_TRY_OR(cleanup, brc_beam_softening_create(s, &strengths));
+    if (softens) BRC_TRY_OR(cleanup, s->model->cohesion->create(s, &strengths));
     BRC_TRY_OR(cleanup, upload_bounds(s, weakest));
 cleanup:
     brc_memory_free(weakest);

@@ -44,6 +44,8 @@ struct brc_breaking {
 };
 
 extern const brc_field_table brc_break_fields, brc_criterion_fields;
+/* Broken beams may bear, or leave forces behind. */
+bool brc_wants_lost_beams(const brc_wants *wants);
 /* What bonds that broke keep; what criteria of elements have, their numbers too. */
 brc_scope brc_scope_of_breaks(const brc_simulation *s, const brc_scope *outer);
 brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer);

@@ -1,10 +1,6 @@
 /* What broke, for a store (state_store.h): kept of the broken bonds and of the elements that lost one only, since a new
  * simulation has all others right. */
-#include "../../models/cbm/beam_closure.h"
-#include "../../models/cbm/beam_softening.h"
 #include "cell_breaks.h"
-#include "../../models/dlsm/cell_softening.h"
-#include "../../models/dlsm/closed_faces.h"
 #include "fracture_internal.h"
 #include "../../run/state_store.h"
 #include <string.h>
@@ -153,8 +149,7 @@ cleanup:
 brc_status brc_fracture_store_stretch(brc_simulation *s, brc_state_store *store)
 {
     BRC_TRY(walk_tables(s, store, NULL, NULL));
-    BRC_TRY(store->field(store, s->neighbour));
-    return brc_beam_closure_store_state(s, store);
+    return store->field(store, s->neighbour);
 }
 
 brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
@@ -170,10 +165,7 @@ brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
         BRC_TRY_OR(cleanup, point_home(s, &bonds));
     }
     BRC_TRY_OR(cleanup, walk_arrays(s, store, &bonds));
-    BRC_TRY_OR(cleanup, brc_closed_faces_store_state(s, store, &bonds));
-    BRC_TRY_OR(cleanup, brc_softening_store_state(s, store));
-    BRC_TRY_OR(cleanup, brc_beam_softening_store_state(s, store));
-    status = brc_beam_closure_store_state(s, store);
+    if (s->model->cohesion) status = s->model->cohesion->store(s, store, &bonds);
 cleanup:
     brc_memory_free(bonds.id);
     return status;

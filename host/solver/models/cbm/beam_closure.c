@@ -13,10 +13,6 @@ struct brc_beam_closure {
 };
 typedef struct brc_beam_closure beam_closure;
 
-bool brc_wants_beam_closure(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_spheres(w) && (brc_scene_shuts(w->scene) || w->softens);
-}
 static bool softens(const brc_wants *w)
 {
     return w->softens;
@@ -32,7 +28,7 @@ static const brc_field_row rows[] = {
      BRC_KEPT("closure.lean", BRC_KEEP_ALL)},
     {"rubs", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(rubs), "broken beams", "-", BRC_NOT_KEPT},
 };
-BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_beam_closure, rows);
+BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_lost_beams, rows);
 
 static beam_closure *closure_of(const brc_simulation *s)
 {
@@ -93,7 +89,7 @@ static brc_status make_passes(brc_simulation *s, beam_closure *f)
 
 brc_status brc_beam_closure_create(brc_simulation *s)
 {
-    if (!brc_wants_beam_closure(&s->wants)) return BRC_OK;
+    if (!brc_wants_lost_beams(&s->wants)) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_closure, 1, "broken beams"));
     beam_closure *f = s->fracture->beam_closure;
     BRC_TRY(brc_fields_create(s->device, &brc_beam_closure_fields, &s->wants, f));

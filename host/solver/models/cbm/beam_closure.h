@@ -25,7 +25,5 @@ brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half
 
 /* What a checkpoint keeps (state_store.h). */
 brc_status brc_beam_closure_store_state(brc_simulation *s, brc_state_store *store);
-/* Whether some beams may bear after they broke, or soften. */
-bool brc_wants_beam_closure(const brc_wants *wants);
 
 #endif

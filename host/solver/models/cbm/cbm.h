@@ -22,6 +22,9 @@ brc_status brc_cbm_create_fracture(brc_simulation *s);
 brc_status brc_cbm_breaking_force(brc_simulation *s, const brc_force_request *r);
 brc_status brc_cbm_break_bonds(brc_simulation *s, double half_kick);
 
+/* ---- cohesion.c ---- */
+extern const brc_model_cohesion brc_cbm_cohesion;
+
 /* ---- geometry.c ---- */
 brc_status brc_cbm_upload(brc_simulation *s);
 

@@ -42,6 +42,7 @@ const brc_bond_model brc_cbm = {
     .upload = brc_cbm_upload,
     .create_fracture = brc_cbm_create_fracture,
     .break_bonds = brc_cbm_break_bonds,
+    .cohesion = &brc_cbm_cohesion,
     .limits = brc_cbm_limits,
     .statics = &statics,
     .step_bound = &step_bound,

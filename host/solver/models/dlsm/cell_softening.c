@@ -1,5 +1,4 @@
 #include "cell_softening.h"
-#include "../cbm/beam_softening.h"
 #include "../../effects/fracture/cell_breaks_internal.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
@@ -204,11 +203,6 @@ cleanup:
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
 {
     if (!strengths->softens) return BRC_OK;
-    if (!s->model->breaking->cohesion || s->fracture->cells->by_element)
-        return BRC_FAIL(
-            s->context, BRC_BAD_INPUT,
-            "fracture_energy: bonds soften with model dlsm and criterion bond-normal; here they break at once: use "
-            "those, or remove it from the strengths and interfaces");
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
     BRC_TRY(make_passes(s, s->fracture->cells->softening));
     BRC_TRY(warn_of_size(s, strengths));
@@ -373,21 +367,6 @@ brc_status brc_softening_settle(brc_simulation *s, const brc_ring_list *around)
     return BRC_RUN(f->settle, n, {"step", BRC_INT(brc_fracture_moment(s))}, {"list", BRC_BUF(around->upto[0])});
 }
 
-brc_status brc_softening_begin_stage(brc_simulation *s)
-{
-    const brc_stage *stage = brc_current_stage(s);
-    brc_softening_report report = {0};
-    if ((!faces_of(s) && !brc_beam_softening_is_on(s)) || stage->solver == BRC_SOLVER_DYNAMIC) return BRC_OK;
-    BRC_TRY(brc_simulation_softening(s, &report));
-    if (report.n_opened > 0)
-        return BRC_FAIL(
-            s->context, BRC_BAD_INPUT,
-            "stage '%s': bonds have opened against their cohesion in an earlier stage, and openings follow in dynamic "
-            "stages only; use a dynamic stage with mass damping",
-            stage->name);
-    return BRC_OK;
-}
-
 /* Broken faces whose sides still bear on each other are broken bonds that have a neighbour (stored_breaks.c points all
  * broken ones home). */
 static brc_status rejoin(brc_simulation *s, softening_faces *f)
@@ -439,7 +418,7 @@ brc_status brc_softening_friction(brc_simulation *s, double *out)
 
 /* ---- what came of it ---- */
 
-brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
+brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *out)
 {
     softening_faces *f = faces_of(s);
     const brc_layout *layout = s->layout;
@@ -448,7 +427,6 @@ brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out
     double *crack = NULL, *alive = NULL;
     int32_t *open = NULL;
     brc_status status = BRC_OK;
-    if (brc_beam_softening_is_on(s)) return brc_beam_softening_report(s, out);
     *out = (brc_softening_report){0};
     if (!f || !f->any) return BRC_OK;
     const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));

@@ -34,8 +34,7 @@ brc_status brc_softening_refresh(brc_simulation *s);
 /* After the energies of the broken bonds, around which the list is, were shared out. */
 brc_status brc_softening_settle(brc_simulation *s, const struct brc_ring_list *around);
 
-/* Static stages: refuses events, and faces that stand open (their openings would not follow). */
-brc_status brc_softening_begin_stage(brc_simulation *s);
+brc_status brc_softening_find_report(brc_simulation *s, struct brc_softening_report *out);
 /* What a checkpoint keeps (state_store.h). */
 brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store);
 /* Energy lost to friction between the sides of broken faces so far [J]. */

@@ -33,6 +33,9 @@ bool brc_dlsm_screens(const brc_simulation *s);
 brc_status brc_dlsm_screening_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list,
                                      int ring);
 
+/* ---- cohesion.c ---- */
+extern const brc_model_cohesion brc_dlsm_cohesion;
+
 /* ---- geometry.c ---- */
 brc_status brc_dlsm_upload(brc_simulation *s);
 

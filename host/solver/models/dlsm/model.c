@@ -14,7 +14,6 @@ static bool compacts(const brc_scene *scene)
 static const brc_model_breaking breaking = {.create = brc_dlsm_breaks_create,
                                             .area_width = 3,
                                             .wide = true,
-                                            .cohesion = true,
                                             .record = "cells_record",
                                             .branches = brc_dlsm_branches,
                                             .rebuild = brc_dlsm_rebuild,
@@ -68,6 +67,7 @@ const brc_bond_model brc_dlsm = {
     .create_fracture = brc_cell_breaks_create,
     .break_bonds = brc_cell_breaks_fail,
     .breaking = &breaking,
+    .cohesion = &brc_dlsm_cohesion,
     .fields = fields,
     BRC_HOOKED(hooked),
 };
