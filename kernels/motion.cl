@@ -2,10 +2,10 @@
 
 /* v += kick f / m, u += drift v. A full Verlet or symplectic Euler step has kick = drift = dt; a half kick has drift
  * 0. */
-KERNEL void advance(int n, state kick, state drift, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
+KERNEL void advance(int n_rows, state kick, state drift, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
                     UPDATE(state) displacement)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         const state per_mass = kick / mass[e];
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)e * 3 + c;
@@ -19,10 +19,10 @@ KERNEL void advance(int n, state kick, state drift, OWN(state) mass, OWN(state) 
 /* Tchamwa-Wielgosz: u += dt v + phi dt^2 a; v += dt a (docs/notebook/theory.md T3). lost accumulates, per element, the
  * part (phi - 1/2) dt^2 m a^2 - (dt v + phi dt^2 a).f_old / 2 of the scheme's own dissipation; numerical_close adds the
  * rest. */
-KERNEL void advance_tchamwa(int n, state dt, state phi, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
+KERNEL void advance_tchamwa(int n_rows, state dt, state phi, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
                             UPDATE(state) displacement, PUT(state) moved, UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         state sum = 0;
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)e * 3 + c;
@@ -38,9 +38,9 @@ KERNEL void advance_tchamwa(int n, state dt, state phi, OWN(state) mass, OWN(sta
 }
 
 /* ... + du.f_new / 2, so that the sum is (phi - 1/2) dt^2 a.M a - du.K du / 2 on a linear system. */
-KERNEL void numerical_close(int n, OWN(state) force, OWN(state) moved, UPDATE(state) lost)
+KERNEL void numerical_close(int n_rows, OWN(state) force, OWN(state) moved, UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         state sum = 0;
         for (int c = 0; c < 3; ++c) sum += STATE(0.5) * moved[(brc_size)e * 3 + c] * force[(brc_size)e * 3 + c];
         lost[e] += sum;
@@ -48,9 +48,9 @@ KERNEL void numerical_close(int n, OWN(state) force, OWN(state) moved, UPDATE(st
 }
 
 /* Mass damping over one step, exact for the drag alone: v *= factor = exp(-c dt); lost gains the energy [J]. */
-KERNEL void damp_mass(int n, state factor, OWN(state) mass, UPDATE(state) velocity, UPDATE(state) lost)
+KERNEL void damp_mass(int n_rows, state factor, OWN(state) mass, UPDATE(state) velocity, UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         state square = 0;
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)e * 3 + c;
@@ -63,10 +63,10 @@ KERNEL void damp_mass(int n, state factor, OWN(state) mass, UPDATE(state) veloci
 
 /* v += factor f / m with f the drag on noise of velocities v [N/s of stiffness times velocity]; lost gains the energy
  * [J]. */
-KERNEL void damp_noise(int n, state factor, OWN(state) mass, OWN(state) drag, UPDATE(state) velocity,
+KERNEL void damp_noise(int n_rows, state factor, OWN(state) mass, OWN(state) drag, UPDATE(state) velocity,
                        UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         const state per_mass = factor / mass[e];
         state gone = 0;
         for (int c = 0; c < 3; ++c) {
@@ -80,9 +80,9 @@ KERNEL void damp_noise(int n, state factor, OWN(state) mass, OWN(state) drag, UP
 }
 
 /* f += m g. */
-KERNEL void gravity(int n, state gx, state gy, state gz, OWN(state) mass, UPDATE(state) force)
+KERNEL void gravity(int n_rows, state gx, state gy, state gz, OWN(state) mass, UPDATE(state) force)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         force[(brc_size)e * 3] += mass[e] * gx;
         force[(brc_size)e * 3 + 1] += mass[e] * gy;
         force[(brc_size)e * 3 + 2] += mass[e] * gz;
@@ -90,9 +90,9 @@ KERNEL void gravity(int n, state gx, state gy, state gz, OWN(state) mass, UPDATE
 }
 
 /* Kinetic energy [J] [n]. */
-KERNEL void kinetic_energy(int n, OWN(state) mass, OWN(state) velocity, PUT(state) out)
+KERNEL void kinetic_energy(int n_rows, OWN(state) mass, OWN(state) velocity, PUT(state) out)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         const state x = velocity[(brc_size)e * 3], y = velocity[(brc_size)e * 3 + 1], z = velocity[(brc_size)e * 3 + 2];
         out[e] = STATE(0.5) * mass[e] * (x * x + y * y + z * z);
     }

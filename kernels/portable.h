@@ -114,6 +114,7 @@ typedef size_t brc_size;
  * own. */
 #define FOR_LANES(l) BRC_PRAGMA(omp simd) for (int l = 0; l < W; ++l)
 #define FOR_LANES_ANY(l, any) BRC_PRAGMA(omp simd reduction(| : any)) for (int l = 0; l < W; ++l)
+static int brc_first_item __attribute__((unused)); /* kernel_instance.h */
 #ifdef BRC_TARGET
 #define FOR_EACH_ITEM(i, n)                                                                                            \
     BRC_PRAGMA(omp target teams distribute parallel for defaultmap(firstprivate : pointer))                            \
@@ -136,7 +137,7 @@ typedef size_t brc_size;
     for (unsigned brc_mode = BRC_FLOAT_MODE(), brc_pass = 0; brc_pass < 2; ++brc_pass)                                 \
         if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
             BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
-    for (int i = 0; i < (n); ++i)
+    for (int i = brc_first_item; i < (n); ++i)
 #endif
 #if BRC_PRECISION == 0
 #define SQRT(x) __builtin_sqrt(x)

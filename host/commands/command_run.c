@@ -90,4 +90,5 @@ const brc_command brc_command_run = {
                "keeps its results so far\nand a checkpoint, from which --resume goes on.",
     .options = options,
     .n_options = sizeof options / sizeof *options,
-    .run = run};
+    .run = run,
+    .ranks = true};

@@ -1,5 +1,6 @@
 /* What all backends share: checks, sentences, counting, and finding each kernel once. */
 #include "device_internal.h"
+#include "shares_internal.h"
 #include "device_list.h"
 #include "../base/memory.h"
 #include "../base/ranks.h"
@@ -169,6 +170,7 @@ void brc_device_close(brc_device **handle)
             device->backend->forget(kernel);
             brc_memory_free(kernel);
         }
+        brc_shares_free(device);
         if (device->dummy) device->backend->release(device, device->dummy, 64);
         device->backend->close(device);
     }
@@ -340,6 +342,7 @@ brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data
 {
     BRC_TRY(check_range(buffer, offset, bytes, "write"));
     if (bytes == 0) return BRC_OK;
+    BRC_TRY(brc_share_gather(buffer));
     buffer->device->counts.waits += 1;
     buffer->device->counts.written_bytes += bytes;
     return buffer->device->backend->write(buffer->device, buffer->memory, offset, data, bytes);
@@ -349,6 +352,7 @@ brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64
 {
     BRC_TRY(check_range(buffer, offset, bytes, "read"));
     if (bytes == 0) return BRC_OK;
+    BRC_TRY(brc_share_gather(buffer));
     buffer->device->counts.waits += 1;
     buffer->device->counts.read_bytes += bytes;
     return buffer->device->backend->read(buffer->device, buffer->memory, offset, data, bytes);
@@ -362,6 +366,8 @@ brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes)
         return BRC_FAIL(dst->device->context, BRC_INTERNAL, "copy from %s to %s: must be two buffers of one device",
                         src->what, dst->what);
     if (bytes == 0) return BRC_OK;
+    BRC_TRY(brc_share_gather(src));
+    BRC_TRY(brc_share_gather(dst));
     dst->device->counts.copied_bytes += bytes;
     return dst->device->backend->copy(dst->device, dst->memory, src->memory, bytes);
 }
@@ -369,6 +375,7 @@ brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes)
 brc_status brc_buffer_fill_zero(brc_buffer *buffer)
 {
     if (buffer->bytes == 0) return BRC_OK;
+    buffer->where = 0; /* everywhere */
     return buffer->device->backend->zero(buffer->device, buffer->memory, buffer->bytes);
 }
 
@@ -458,6 +465,16 @@ static bool kinds_match(const char *kinds, int n_args, const brc_arg *args)
     return kinds[n_args] == '\0';
 }
 
+/* The bound of the items is the first argument. */
+static brc_status launch_range(brc_kernel *kernel, int64_t first, int64_t end, int n_args, const brc_arg *args)
+{
+    brc_arg own[BRC_KERNEL_MOST_ARGS];
+    if (args[0].value.integer == end) return kernel->device->backend->launch(kernel, first, end, n_args, args);
+    memcpy(own, args, (size_t)n_args * sizeof *own);
+    own[0] = BRC_INT((int32_t)end);
+    return kernel->device->backend->launch(kernel, first, end, n_args, own);
+}
+
 brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
 {
     brc_context *const context = kernel->device->context;
@@ -481,5 +498,9 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
                             a, args[a].value.buffer->what);
     if (n_items == 0) return BRC_OK;
     kernel->launches += 1;
-    return kernel->device->backend->launch(kernel, n_items, n_args, args);
+    int64_t first, end;
+    BRC_TRY(brc_share_before(kernel, n_items, n_args, args, &first, &end));
+    if (first < end) BRC_TRY(launch_range(kernel, first, end, n_args, args));
+    brc_share_after(kernel, n_items, n_args, args);
+    return BRC_OK;
 }

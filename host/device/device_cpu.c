@@ -251,14 +251,17 @@ static brc_status cpu_find(brc_kernel *kernel)
     return brc_instance_find(kernel, ((const cpu_inside *)kernel->device->inside)->instance);
 }
 
-static brc_status cpu_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+static brc_status cpu_launch(brc_kernel *kernel, int64_t first, int64_t n_items, int n_args, const brc_arg *args)
 {
+    const cpu_inside *const inside = kernel->device->inside;
     (void)n_items; /* the loop bound is an argument of the kernel */
-    const int n_threads = ((const cpu_inside *)kernel->device->inside)->n_threads;
+    const int n_threads = inside->n_threads;
     /* The parallel loops are in the kernels, so the team size is set around the call; the caller's own is put back. */
     const int before = omp_get_max_threads();
     if (before != n_threads) omp_set_num_threads(n_threads);
+    if (first > 0) *inside->instance->first = (int)first;
     const brc_status status = brc_instance_call(kernel, n_args, args);
+    if (first > 0) *inside->instance->first = 0;
     if (before != n_threads) omp_set_num_threads(before);
     return status;
 }

@@ -4,6 +4,7 @@
 #define BRC_DEVICE_INTERNAL_H
 
 #include "kernel_signature.h"
+#include "shares.h"
 
 enum { BRC_REASON_BYTES = 256 };
 
@@ -22,7 +23,8 @@ typedef struct brc_backend {
     /* Fill kernel->function (and kernel->inside); BRC_INTERNAL with a sentence when there is no such kernel. */
     brc_status (*find)(brc_kernel *kernel);
     void (*forget)(brc_kernel *kernel);
-    brc_status (*launch)(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);
+    /* Items [first, n_items) of an n_items that is the first argument. */
+    brc_status (*launch)(brc_kernel *kernel, int64_t first, int64_t n_items, int n_args, const brc_arg *args);
     brc_status (*wait)(brc_device *device);
 } brc_backend;
 
@@ -34,14 +36,15 @@ struct brc_device {
     brc_device_info info;
     brc_precision precision;
     bool many_materials, exact;
-    int lanes;                /* W */
-    int slice;                /* C */
-    int64_t bytes;            /* held in buffers */
-    brc_device_counts counts; /* but for launches, which kernels count */
-    void *dummy;              /* memory of 64 bytes for arguments that are NULL; not counted */
-    brc_kernel *kernels;      /* found so far, a list */
-    brc_buffer *buffers;      /* held now, a list, the youngest first */
-    void *inside;             /* the backend's own */
+    int lanes;                 /* W */
+    int slice;                 /* C */
+    int64_t bytes;             /* held in buffers */
+    brc_device_counts counts;  /* but for launches, which kernels count */
+    void *dummy;               /* memory of 64 bytes for arguments that are NULL; not counted */
+    brc_kernel *kernels;       /* found so far, a list */
+    brc_buffer *buffers;       /* held now, a list, the youngest first */
+    struct brc_shares *shares; /* of several ranks; NULL: there is one (shares.h) */
+    void *inside;              /* the backend's own */
 };
 
 struct brc_buffer {
@@ -49,6 +52,9 @@ struct brc_buffer {
     void *memory;       /* the backend's handle */
     int64_t bytes;      /* as asked for */
     int64_t held;       /* as allocated: at least one line */
+    brc_array_of of;    /* how it lies (shares.h) */
+    int64_t each;       /* bytes of one of those */
+    int where;          /* where its rows are right (shares.c) */
     char what[64];
     brc_buffer *older, *younger; /* of the device's list */
 };

@@ -211,7 +211,7 @@ static void opencl_forget(brc_kernel *kernel)
     brc_memory_free(own);
 }
 
-static brc_status opencl_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+static brc_status opencl_launch(brc_kernel *kernel, int64_t first, int64_t n_items, int n_args, const brc_arg *args)
 {
     brc_device *const device = kernel->device;
     opencl_inside *const inside = device->inside;
@@ -232,8 +232,9 @@ static brc_status opencl_launch(brc_kernel *kernel, int64_t n_items, int n_args,
         own->last[a] = packed;
         own->set[a] = true;
     }
-    const size_t global = ((size_t)n_items + own->group - 1) / own->group * own->group;
-    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, NULL, &global, &own->group, 0, NULL,
+    const size_t offset = (size_t)first,
+                 global = ((size_t)(n_items - first) + own->group - 1) / own->group * own->group;
+    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, &offset, &global, &own->group, 0, NULL,
                                                brc_opencl_profile_event(inside->profile));
     BRC_TRY(brc_opencl_check(device, code, kernel->name));
     brc_opencl_profile_add(inside->profile, kernel->name, n_items);

@@ -239,8 +239,9 @@ static brc_status target_find(brc_kernel *kernel)
     return brc_instance_find(kernel, ((const target_inside *)kernel->device->inside)->instance);
 }
 
-static brc_status target_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+static brc_status target_launch(brc_kernel *kernel, int64_t first, int64_t n_items, int n_args, const brc_arg *args)
 {
+    (void)first;   /* one rank alone computes here (shares.h) */
     (void)n_items; /* the loop bound is an argument of the kernel */
     plugin_of(kernel->device)->select(kernel->device->info.index);
     return brc_instance_call(kernel, n_args, args);

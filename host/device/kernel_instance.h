@@ -14,6 +14,7 @@ typedef struct brc_kernel_instance {
     int many_materials; /* 0 or 1 */
     int lanes;          /* W */
     int slice;          /* C */
+    int *first;         /* item that launches begin with: 0 but while a rank does its own (shares.h) */
     int n;
     const brc_kernel_entry *entries; /* [n] */
 } brc_kernel_instance;

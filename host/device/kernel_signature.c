@@ -90,6 +90,13 @@ static bool read_list(const char *from, const char *end, bool listed, brc_kernel
     return false;
 }
 
+/* Groups and rows by the name of the first parameter; those of passes over all elements are groups. */
+static brc_array_of items_of(const brc_kernel_signature *k, bool pass, bool listed)
+{
+    if (pass) return listed ? BRC_OF_NOTHING : BRC_OF_GROUPS;
+    return begins(k->name[0], "n_groups") ? BRC_OF_GROUPS : begins(k->name[0], "n_rows") ? BRC_OF_ROWS : BRC_OF_NOTHING;
+}
+
 /* What is behind the bracket that opens the parameters, where the text at `word` is the kernel's name. */
 static const char *list_of(const char *word, const char *name, bool *listed)
 {
@@ -120,5 +127,6 @@ void brc_kernel_signature_read(const char *name, brc_kernel_signature *out)
                 *out = (brc_kernel_signature){0};
                 return;
             }
+            out->items = items_of(out, strncmp(word, "PASS(", 5) == 0, listed);
         }
 }

@@ -14,6 +14,7 @@ const brc_kernel_instance BRC_INSTANCE = {
     .many_materials = BRC_MANY_MATERIALS,
     .lanes = BRC_LANES,
     .slice = BRC_SLICE,
+    .first = &brc_first_item,
     .n = (int)(sizeof entries / sizeof entries[0]),
     .entries = entries,
 };

@@ -1,4 +1,5 @@
 #include "checkpoint.h"
+#include "../../base/ranks.h"
 #include "checkpoint_identity.h"
 #include "checkpoint_store.h"
 #include "../seal.h"
@@ -234,8 +235,9 @@ static brc_status pause_here(void *self, brc_simulation *simulation, brc_pause w
     brc_checkpoints *c = self;
     const brc_output *output = &c->scene->output;
     const int64_t now = intervals(c);
-    const bool asked =
+    int64_t asked =
         now > c->seen || (output->checkpoint_wall > 0 && brc_clock_s() - c->written_at >= output->checkpoint_wall);
+    if (output->checkpoint_wall > 0) BRC_TRY(brc_ranks_reduce(c->context, BRC_ANY_BIT, 1, &asked)); /* one clock */
     (void)simulation;
     c->seen = now;
     if (why == BRC_PAUSE_GOING && !asked) return BRC_OK;

@@ -1,4 +1,5 @@
 /* Host doubles by element id <-> device rows. */
+#include "../../device/shares.h"
 #include "../run/simulation_internal.h"
 
 static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count, int bytes_each)
@@ -80,16 +81,22 @@ brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *va
 /* Room for LANE_SPARE numbers of kernels/portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
 
+static brc_status new_array(brc_simulation *s, brc_buffer **out, int64_t count, int bytes, const char *what)
+{
+    const int32_t n_rows = s->layout->n_rows;
+    BRC_TRY(brc_buffer_create(s->device, out, (count + SPARE) * bytes, what));
+    if (count > 0 && count % n_rows == 0) brc_buffer_is_of(*out, BRC_OF_ROWS, count / n_rows * bytes);
+    return BRC_OK;
+}
+
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return brc_buffer_create(s->device, out,
-                             (count + SPARE) * brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
+    return new_array(s, out, count, brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
 }
 
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return brc_buffer_create(s->device, out,
-                             (count + SPARE) * brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
+    return new_array(s, out, count, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
 }
 
 brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count)

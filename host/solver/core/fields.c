@@ -1,4 +1,5 @@
 /* Counts, and what is done with a table of fields. */
+#include "../../device/shares.h"
 #include "fields.h"
 
 /* Room for LANE_SPARE numbers of kernels/portable.h: gathers read whole vectors. */
@@ -104,13 +105,26 @@ brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner)
     return *(brc_buffer *const *)(const void *)((const char *)owner + field->at);
 }
 
+/* How an array of a table lies; what no rank has a share of lies anyhow. */
+static void tell_order(brc_buffer *buffer, const brc_field_row *field, const brc_wants *wants)
+{
+    const int64_t bytes = field->width * (field->number == BRC_FIELD_INT     ? (int64_t)sizeof(int32_t)
+                                          : field->number == BRC_FIELD_STATE ? wants->state_bytes
+                                                                             : wants->coeff_bytes);
+    if (field->count == brc_each_row || field->count == brc_each_block) brc_buffer_is_of(buffer, BRC_OF_ROWS, bytes);
+    if (field->count == brc_each_group) brc_buffer_is_of(buffer, BRC_OF_GROUPS, bytes);
+    if (field->count == brc_each_entry) brc_buffer_is_of(buffer, BRC_OF_SLOTS, bytes * wants->layout->slice);
+}
+
 brc_status brc_fields_create(brc_device *device, const brc_field_table *table, const brc_wants *wants, void *owner)
 {
     brc_fields_free(table, owner);
     for (int k = 0; k < table->n; ++k) {
         const brc_field_row *field = &table->fields[k];
         if (field->wanted && !field->wanted(wants)) continue;
-        BRC_TRY(brc_buffer_create(device, buffer_of(field, owner), brc_field_bytes(field, wants), field->what));
+        brc_buffer **const buffer = buffer_of(field, owner);
+        BRC_TRY(brc_buffer_create(device, buffer, brc_field_bytes(field, wants), field->what));
+        tell_order(*buffer, field, wants);
     }
     return BRC_OK;
 }

@@ -291,11 +291,11 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
         BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s, every, frame_every, total)));
         brc_progress_update(progress, s->step - first);
         BRC_TRY_OR(cleanup, observe(n, part, n_bonds, every, frame_every, total));
-        BRC_TRY_OR(cleanup, brc_notify_pause(s, s->interrupted            ? BRC_PAUSE_INTERRUPTED
-                                                : s->note[s->stage].ended ? BRC_PAUSE_ENDED
-                                                : s->step < total         ? BRC_PAUSE_GOING
-                                                                          : BRC_PAUSE_DONE));
-        if (s->interrupted) {
+        BRC_TRY_OR(cleanup, brc_notify_pause(s, brc_simulation_is_to_stop(s) ? BRC_PAUSE_INTERRUPTED
+                                                : s->note[s->stage].ended    ? BRC_PAUSE_ENDED
+                                                : s->step < total            ? BRC_PAUSE_GOING
+                                                                             : BRC_PAUSE_DONE));
+        if (brc_simulation_is_to_stop(s)) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld",
                               stage->name, (long long)s->step, (long long)total);
             goto cleanup;

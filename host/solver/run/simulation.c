@@ -3,6 +3,8 @@
 #include "split.h"
 #include "look.h"
 #include "simulation_internal.h"
+#include "../../base/ranks.h"
+#include "../../device/shares.h"
 #include <math.h>
 #include <string.h>
 
@@ -42,6 +44,30 @@ brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, c
 int64_t brc_simulation_planned_bytes(const brc_simulation *s)
 {
     return brc_fields_planned(&s->wants, BRC_LIFE_RUN) + brc_fields_planned(&s->wants, BRC_LIFE_SEARCH);
+}
+
+/* Several ranks share the rows. */
+static brc_status share_rows(brc_simulation *s)
+{
+    const brc_layout *layout = s->layout;
+    const int64_t n = layout->n_slots * layout->slice;
+    int32_t *neighbour = NULL;
+    if (brc_ranks_count() == 1) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
+    for (int32_t block = 0; block < layout->n_slices; ++block)
+        for (int64_t k = (int64_t)layout->slot_start[block] * layout->slice;
+             k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
+            neighbour[k] = layout->half_edge[k] >= 0
+                               ? layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]]
+                               : block * layout->slice + (int32_t)(k % layout->slice);
+    const brc_status status = brc_device_share(s->device, &(brc_rows_of_device){.n_rows = layout->n_rows,
+                                                                                .n_groups = s->n_groups,
+                                                                                .n_slices = layout->n_slices,
+                                                                                .slice = layout->slice,
+                                                                                .slot_start = layout->slot_start,
+                                                                                .neighbour = neighbour});
+    brc_memory_free(neighbour);
+    return status;
 }
 
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
@@ -86,6 +112,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY_OR(cleanup, find_materials(s));
     brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
     s->n_groups = s->wants.n_groups;
+    BRC_TRY_OR(cleanup, share_rows(s));
     if (s->model->create) BRC_TRY_OR(cleanup, s->model->create(s));
     BRC_TRY_OR(cleanup, brc_run_passes_make(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
@@ -213,6 +240,14 @@ brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
 {
     BRC_TRY(brc_stage_enter(s, stage));
     return brc_stage_start(s);
+}
+
+bool brc_simulation_is_to_stop(brc_simulation *s)
+{
+    int64_t asked = s->interrupted;
+    if (brc_ranks_count() > 1 && brc_ranks_reduce(s->context, BRC_ANY_BIT, 1, &asked) == BRC_OK && asked)
+        s->interrupted = 1;
+    return asked != 0;
 }
 
 void brc_simulation_interrupt(brc_simulation *s)

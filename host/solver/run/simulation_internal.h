@@ -404,4 +404,7 @@ static inline bool brc_has_spheres(const brc_simulation *s)
     return s->model->element == BRC_ELEMENT_SPHERE;
 }
 
+/* Was brc_simulation_interrupt called, on any rank? All ranks. */
+bool brc_simulation_is_to_stop(brc_simulation *simulation);
+
 #endif

@@ -71,7 +71,8 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
         rz = next;
         s->static_report.iterations += 1;
         brc_progress_update(progress, s->static_report.iterations);
-        if (s->interrupted) return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
+        if (brc_simulation_is_to_stop(s))
+            return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
         if (brc_leaves_off(s)) break;
         if (rr < 0.99 * best)
             best = rr, since_best = 0;

@@ -108,7 +108,7 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
             g[k] *= cosine[k];
             s->static_report.iterations += 1;
             brc_progress_update(progress, s->static_report.iterations);
-            if (s->interrupted) {
+            if (brc_simulation_is_to_stop(s)) {
                 status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
                 goto cleanup;
             }

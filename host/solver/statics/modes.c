@@ -335,7 +335,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
             change_since(values, before, m - GUARD_VECTORS) < steady[!s->model->statics->symmetric])
             goto cleanup;
         if (brc_leaves_off(s)) goto cleanup;
-        if (s->interrupted) {
+        if (brc_simulation_is_to_stop(s)) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
             goto cleanup;
         }

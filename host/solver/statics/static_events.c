@@ -211,8 +211,8 @@ static brc_status tell_pause(const events *v)
     brc_simulation *s = v->part[0];
     s->progress.margin = v->margin;
     s->progress.largest_load = v->largest_load;
-    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED : BRC_PAUSE_GOING));
-    if (!s->interrupted) return BRC_OK;
+    BRC_TRY(brc_notify_pause(s, brc_simulation_is_to_stop(s) ? BRC_PAUSE_INTERRUPTED : BRC_PAUSE_GOING));
+    if (!brc_simulation_is_to_stop(s)) return BRC_OK;
     return BRC_FAIL(v->context, BRC_INTERRUPTED, "stage '%s' was interrupted after event %lld of %d", v->stage->name,
                     (long long)s->step, (int)v->stage->most_events);
 }

@@ -392,11 +392,11 @@ static brc_status tell_pause(brc_simulation *s, int32_t increments)
     const brc_stage *stage = brc_current_stage(s);
     const bool done = s->step >= increments + (stage->to_failure > 0);
     const bool ended = s->note[s->stage].ended;
-    BRC_TRY(brc_notify_pause(s, s->interrupted ? BRC_PAUSE_INTERRUPTED
-                                : ended        ? BRC_PAUSE_ENDED
-                                : done         ? BRC_PAUSE_DONE
-                                               : BRC_PAUSE_GOING));
-    if (!s->interrupted) return BRC_OK;
+    BRC_TRY(brc_notify_pause(s, brc_simulation_is_to_stop(s) ? BRC_PAUSE_INTERRUPTED
+                                : ended                      ? BRC_PAUSE_ENDED
+                                : done                       ? BRC_PAUSE_DONE
+                                                             : BRC_PAUSE_GOING));
+    if (!brc_simulation_is_to_stop(s)) return BRC_OK;
     return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name,
                     (long long)s->step, (int)increments);
 }
