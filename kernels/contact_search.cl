@@ -21,9 +21,9 @@ KERNEL void contact_expose(int n, OWN(state) broken, UPDATE(int) seen, PUT(int) 
 }
 
 /* Groups of elements of which a bond was chosen in this step (fracture.cl). found [n_groups]. */
-KERNEL void contact_marked(int n_groups, int step, OWN(int) mark, PUT(state) found)
+KERNEL void contact_marked(int n, int step, OWN(int) mark, PUT(state) found)
 {
-    FOR_EACH_ITEM(group, n_groups) { found[group] = mark[group] == step ? STATE(1) : STATE(0); }
+    FOR_EACH_ITEM(group, n) { found[group] = mark[group] == step ? STATE(1) : STATE(0); }
 }
 
 KERNEL void contact_list(int n, OWN(int) exposed, OWN(int) slot_of, SCATTER(int) list)

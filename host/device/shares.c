@@ -33,6 +33,7 @@ typedef struct brc_shares shares;
 static int64_t before_slice(const shares *h, brc_array_of what, int32_t slice)
 {
     if (what == BRC_OF_SLOTS) return h->rows.slot_start[slice];
+    if (what == BRC_OF_SLICES) return slice;
     const int64_t row = (int64_t)slice * h->rows.slice;
     return what == BRC_OF_GROUPS ? row * h->rows.n_groups / h->rows.n_rows : row;
 }

@@ -21,7 +21,13 @@ brc_status brc_device_share(brc_device *device, const brc_rows_of_device *rows);
 
 /* How an array lies: of which things, `bytes` of each one after another. Arrays that nobody says this of are written by
  * all ranks alike. */
-typedef enum brc_array_of { BRC_OF_NOTHING, BRC_OF_ROWS, BRC_OF_GROUPS, BRC_OF_SLOTS } brc_array_of;
+typedef enum brc_array_of {
+    BRC_OF_NOTHING,
+    BRC_OF_ROWS,
+    BRC_OF_SLICES, /* numbers of the rows of a slice lie beside each other */
+    BRC_OF_GROUPS,
+    BRC_OF_SLOTS
+} brc_array_of;
 void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes);
 
 #endif

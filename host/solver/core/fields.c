@@ -111,7 +111,8 @@ static void tell_order(brc_buffer *buffer, const brc_field_row *field, const brc
     const int64_t bytes = field->width * (field->number == BRC_FIELD_INT     ? (int64_t)sizeof(int32_t)
                                           : field->number == BRC_FIELD_STATE ? wants->state_bytes
                                                                              : wants->coeff_bytes);
-    if (field->count == brc_each_row || field->count == brc_each_block) brc_buffer_is_of(buffer, BRC_OF_ROWS, bytes);
+    if (field->count == brc_each_row) brc_buffer_is_of(buffer, BRC_OF_ROWS, bytes);
+    if (field->count == brc_each_block) brc_buffer_is_of(buffer, BRC_OF_SLICES, bytes * wants->layout->slice);
     if (field->count == brc_each_group) brc_buffer_is_of(buffer, BRC_OF_GROUPS, bytes);
     if (field->count == brc_each_entry) brc_buffer_is_of(buffer, BRC_OF_SLOTS, bytes * wants->layout->slice);
 }
