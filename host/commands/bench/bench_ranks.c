@@ -61,9 +61,6 @@ static brc_status take_kinds(brc_context *context, const brc_arguments *argument
         if (kind == 3) return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: no problem '%s'", piece[k]);
         *kinds[kind] = true;
     }
-    if (out->step && brc_ranks_count() > 1)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia bench ranks: steps do not run on %d ranks yet",
-                        (int)brc_ranks_count());
     return BRC_OK;
 }
 
