@@ -465,16 +465,6 @@ static bool kinds_match(const char *kinds, int n_args, const brc_arg *args)
     return kinds[n_args] == '\0';
 }
 
-/* The bound of the items is the first argument. */
-static brc_status launch_range(brc_kernel *kernel, int64_t first, int64_t end, int n_args, const brc_arg *args)
-{
-    brc_arg own[BRC_KERNEL_MOST_ARGS];
-    if (args[0].value.integer == end) return kernel->device->backend->launch(kernel, first, end, n_args, args);
-    memcpy(own, args, (size_t)n_args * sizeof *own);
-    own[0] = BRC_INT((int32_t)end);
-    return kernel->device->backend->launch(kernel, first, end, n_args, own);
-}
-
 brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
 {
     brc_context *const context = kernel->device->context;
@@ -498,9 +488,5 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
                             a, args[a].value.buffer->what);
     if (n_items == 0) return BRC_OK;
     kernel->launches += 1;
-    int64_t first, end;
-    BRC_TRY(brc_share_before(kernel, n_items, n_args, args, &first, &end));
-    if (first < end) BRC_TRY(launch_range(kernel, first, end, n_args, args));
-    brc_share_after(kernel, n_items, n_args, args);
-    return BRC_OK;
+    return brc_share_launch(kernel, n_items, n_args, args);
 }

@@ -301,13 +301,9 @@ static brc_array_of shared_items(const brc_kernel *kernel, int64_t n_items, int 
     return items;
 }
 
-brc_status brc_share_before(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args, int64_t *first,
-                            int64_t *end)
+/* What the launch reads is there. */
+static brc_status bring(brc_kernel *kernel, brc_array_of items, int n_args, const brc_arg *args)
 {
-    const shares *h = kernel->device->shares;
-    *first = 0, *end = n_items;
-    if (!h) return BRC_OK;
-    const brc_array_of items = shared_items(kernel, n_items, n_args, args);
     for (int a = 0; a < n_args; ++a) {
         brc_buffer *const buffer = args[a].kind == BRC_ARG_BUFFER ? args[a].value.buffer : NULL;
         if (!buffer || buffer->where == EVERYWHERE) continue;
@@ -316,16 +312,35 @@ brc_status brc_share_before(brc_kernel *kernel, int64_t n_items, int n_args, con
         else if (kernel->signature.use[a] == BRC_USE_GATHER && buffer->where == MINE)
             BRC_TRY(bring_near(buffer));
     }
-    if (items == BRC_OF_NOTHING) return BRC_OK;
-    *first = before_slice(h, items, h->first_slice[h->mine]);
-    *end = before_slice(h, items, h->first_slice[h->mine + 1]);
     return BRC_OK;
 }
 
-void brc_share_after(const brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+static brc_status launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
 {
-    if (!kernel->device->shares || shared_items(kernel, n_items, n_args, args) == BRC_OF_NOTHING) return;
+    return kernel->device->backend->launch(kernel, 0, n_items, n_args, args);
+}
+
+/* Items of a range; their bound is the first argument. */
+static brc_status launch_range(brc_kernel *kernel, int64_t first, int64_t end, int n_args, const brc_arg *args)
+{
+    brc_arg own[BRC_KERNEL_MOST_ARGS];
+    memcpy(own, args, (size_t)n_args * sizeof *own);
+    own[0] = BRC_INT((int32_t)end);
+    return kernel->device->backend->launch(kernel, first, end, n_args, own);
+}
+
+brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
+{
+    const shares *h = kernel->device->shares;
+    if (!h) return launch(kernel, n_items, n_args, args);
+    const brc_array_of items = shared_items(kernel, n_items, n_args, args);
+    BRC_TRY(bring(kernel, items, n_args, args));
+    if (items == BRC_OF_NOTHING) return launch(kernel, n_items, n_args, args);
+    const int64_t first = before_slice(h, items, h->first_slice[h->mine]),
+                  end = before_slice(h, items, h->first_slice[h->mine + 1]);
+    if (first < end) BRC_TRY(launch_range(kernel, first, end, n_args, args));
     for (int a = 0; a < n_args; ++a)
         if (args[a].kind == BRC_ARG_BUFFER && args[a].value.buffer && writes(kernel->signature.use[a]))
             args[a].value.buffer->where = MINE;
+    return BRC_OK;
 }
