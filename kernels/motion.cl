@@ -5,7 +5,7 @@
 KERNEL void advance(int n_rows, state kick, state drift, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
                     UPDATE(state) displacement)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         const state per_mass = kick / mass[e];
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)e * 3 + c;
@@ -22,7 +22,7 @@ KERNEL void advance(int n_rows, state kick, state drift, OWN(state) mass, OWN(st
 KERNEL void advance_tchamwa(int n_rows, state dt, state phi, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
                             UPDATE(state) displacement, PUT(state) moved, UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         state sum = 0;
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)e * 3 + c;
@@ -40,7 +40,7 @@ KERNEL void advance_tchamwa(int n_rows, state dt, state phi, OWN(state) mass, OW
 /* ... + du.f_new / 2, so that the sum is (phi - 1/2) dt^2 a.M a - du.K du / 2 on a linear system. */
 KERNEL void numerical_close(int n_rows, OWN(state) force, OWN(state) moved, UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         state sum = 0;
         for (int c = 0; c < 3; ++c) sum += STATE(0.5) * moved[(brc_size)e * 3 + c] * force[(brc_size)e * 3 + c];
         lost[e] += sum;
@@ -50,7 +50,7 @@ KERNEL void numerical_close(int n_rows, OWN(state) force, OWN(state) moved, UPDA
 /* Mass damping over one step, exact for the drag alone: v *= factor = exp(-c dt); lost gains the energy [J]. */
 KERNEL void damp_mass(int n_rows, state factor, OWN(state) mass, UPDATE(state) velocity, UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         state square = 0;
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)e * 3 + c;
@@ -66,7 +66,7 @@ KERNEL void damp_mass(int n_rows, state factor, OWN(state) mass, UPDATE(state) v
 KERNEL void damp_noise(int n_rows, state factor, OWN(state) mass, OWN(state) drag, UPDATE(state) velocity,
                        UPDATE(state) lost)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         const state per_mass = factor / mass[e];
         state gone = 0;
         for (int c = 0; c < 3; ++c) {
@@ -82,7 +82,7 @@ KERNEL void damp_noise(int n_rows, state factor, OWN(state) mass, OWN(state) dra
 /* f += m g. */
 KERNEL void gravity(int n_rows, state gx, state gy, state gz, OWN(state) mass, UPDATE(state) force)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         force[(brc_size)e * 3] += mass[e] * gx;
         force[(brc_size)e * 3 + 1] += mass[e] * gy;
         force[(brc_size)e * 3 + 2] += mass[e] * gz;
@@ -92,7 +92,7 @@ KERNEL void gravity(int n_rows, state gx, state gy, state gz, OWN(state) mass, U
 /* Kinetic energy [J] [n]. */
 KERNEL void kinetic_energy(int n_rows, OWN(state) mass, OWN(state) velocity, PUT(state) out)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         const state x = velocity[(brc_size)e * 3], y = velocity[(brc_size)e * 3 + 1], z = velocity[(brc_size)e * 3 + 2];
         out[e] = STATE(0.5) * mass[e] * (x * x + y * y + z * z);
     }

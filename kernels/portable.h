@@ -66,6 +66,7 @@ typedef ulong brc_size;
 #define FOR_EACH_ITEM(i, n)                                                                                            \
     const int i = (int)get_global_id(0);                                                                               \
     if (i < (n))
+#define FOR_EACH_ROW(e, n) FOR_EACH_ITEM(e, n)
 #define FOR_LANES(l) for (int l = 0; l < W; ++l)
 #define FOR_LANES_ANY(l, any) FOR_LANES(l)
 #if W == 1
@@ -119,6 +120,7 @@ static int brc_first_item __attribute__((unused)); /* kernel_instance.h */
 #define FOR_EACH_ITEM(i, n)                                                                                            \
     BRC_PRAGMA(omp target teams distribute parallel for defaultmap(firstprivate : pointer))                            \
     for (int i = 0; i < (n); ++i)
+#define FOR_EACH_ROW(e, n) FOR_EACH_ITEM(e, n)
 #else
 /* Numbers too small for their exponent cost a hundred times an ordinary one on a CPU, and the tail ahead of every wave
  * front is made of them: each thread sets them to zero (as -cl-denorms-are-zero does in OpenCL) and puts its mode
@@ -138,6 +140,16 @@ static int brc_first_item __attribute__((unused)); /* kernel_instance.h */
         if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
             BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
     for (int i = brc_first_item; i < (n); ++i)
+/* The same over rows of elements, n and the first of which are multiples of W: the W rows of a group become vectors, and
+ * no row rounds otherwise than another wherever threads and ranks part them. */
+#define FOR_EACH_ROW(e, n)                                                                                             \
+    BRC_PRAGMA(omp parallel)                                                                                           \
+    for (unsigned brc_mode = BRC_FLOAT_MODE(), brc_pass = 0; brc_pass < 2; ++brc_pass)                                 \
+        if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
+            BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
+    for (int brc_group = brc_first_item / W; brc_group < (n) / W; ++brc_group)                                         \
+        BRC_PRAGMA(omp simd)                                                                                           \
+    for (int e = brc_group * W; e < brc_group * W + W; ++e)
 #endif
 #if BRC_PRECISION == 0
 #define SQRT(x) __builtin_sqrt(x)

@@ -19,7 +19,7 @@ LAW void orientation_turn(UPDATE(state) q, state hx, state hy, state hz)
 KERNEL void advance_rotation(int n_rows, state kick, state drift, state extra, OWN(state) inertia, OWN(state) torque,
                              UPDATE(state) spin, UPDATE(state) orientation)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         state half_turn[3];
         for (int c = 0; c < 3; ++c) {
             const state a = torque[(brc_size)e * 3 + c] / inertia[e];
@@ -34,7 +34,7 @@ KERNEL void advance_rotation(int n_rows, state kick, state drift, state extra, O
 /* Rotational kinetic energy I w^2 / 2, added [J] [n]. */
 KERNEL void add_spin_energy(int n_rows, OWN(state) inertia, OWN(state) spin, UPDATE(state) out)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         const state x = spin[(brc_size)e * 3], y = spin[(brc_size)e * 3 + 1], z = spin[(brc_size)e * 3 + 2];
         out[e] += STATE(0.5) * inertia[e] * (x * x + y * y + z * z);
     }
@@ -43,7 +43,7 @@ KERNEL void add_spin_energy(int n_rows, OWN(state) inertia, OWN(state) spin, UPD
 /* Linear solves: quaternions (1, theta/2) of small rotation vectors theta [n][3]. */
 KERNEL void small_rotation(int n_rows, OWN(state) theta, PUT(state) orientation)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         GLOBAL state *q = orientation + (brc_size)e * 4;
         q[0] = STATE(1);
         for (int c = 0; c < 3; ++c) q[c + 1] = STATE(0.5) * theta[(brc_size)e * 3 + c];
@@ -53,7 +53,7 @@ KERNEL void small_rotation(int n_rows, OWN(state) theta, PUT(state) orientation)
 /* q <- exp(theta/2) q for finite rotation vectors theta [n][3] [rad], each far below a turn; normalised. */
 KERNEL void turn_orientation(int n_rows, OWN(state) theta, UPDATE(state) orientation)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         GLOBAL const state *t = theta + (brc_size)e * 3;
         orientation_turn(orientation + (brc_size)e * 4, STATE(0.5) * t[0], STATE(0.5) * t[1], STATE(0.5) * t[2]);
     }

@@ -61,7 +61,7 @@ KERNEL void block_precondition(int n, OWN(state) block, OWN(state) r, PUT(state)
 /* v /= m, element by element: M^-1 of a force. */
 KERNEL void divide_by_mass(int n_rows, OWN(state) mass, UPDATE(state) vector)
 {
-    FOR_EACH_ITEM(e, n_rows) {
+    FOR_EACH_ROW(e, n_rows) {
         for (int c = 0; c < 3; ++c) vector[(brc_size)e * 3 + c] /= mass[e];
     }
 }
