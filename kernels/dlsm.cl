@@ -135,6 +135,24 @@ LAW lane_mat3 dlsm_flux_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN
 #endif
 }
 
+/* Pass 3 of all elements by the linear law; the general one is in dlsm_passes.cl. A GPU gives a kernel the registers of
+ * its longest loop, and this one is shorter. */
+KERNEL void dlsm_flux_linear(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                             OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
+                             OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment,
+                             int face_loads, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                             OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, PUT(coeff) flux,
+                             PUT(coeff) bond_part)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const members who = members_of_group(group, row_start);
+        members_store9(who, flux,
+                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
+                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
+                                    material, modulus, ell_of, 0, bond_part));
+    }
+}
+
 /* What pass 4 knows of its own elements, and of one bond. */
 typedef struct {
     state_vec3 u;

@@ -32,6 +32,7 @@
     X(dlsm_gradient)                                                                                                   \
     X(dlsm_stress)                                                                                                     \
     X(dlsm_flux_pass)                                                                                                  \
+    X(dlsm_flux_linear)                                                                                                \
     X(dlsm_force)                                                                                                      \
     X(dlsm_energy)                                                                                                     \
     X(dlsm_deformation)                                                                                                \

@@ -140,15 +140,14 @@ static int brc_first_item __attribute__((unused)); /* kernel_instance.h */
         if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
             BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
     for (int i = brc_first_item; i < (n); ++i)
-/* The same over rows of elements, n and the first of which are multiples of W: the W rows of a group become vectors, and
- * no row rounds otherwise than another wherever threads and ranks part them. */
+/* The same over rows of elements, n and the first of which are multiples of W: the W rows of a group become vectors,
+ * and no row rounds otherwise than another wherever threads and ranks part them. */
 #define FOR_EACH_ROW(e, n)                                                                                             \
     BRC_PRAGMA(omp parallel)                                                                                           \
     for (unsigned brc_mode = BRC_FLOAT_MODE(), brc_pass = 0; brc_pass < 2; ++brc_pass)                                 \
         if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
             BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
-    for (int brc_group = brc_first_item / W; brc_group < (n) / W; ++brc_group)                                         \
-        BRC_PRAGMA(omp simd)                                                                                           \
+    for (int brc_group = brc_first_item / W; brc_group < (n) / W; ++brc_group) BRC_PRAGMA(omp simd)                    \
     for (int e = brc_group * W; e < brc_group * W + W; ++e)
 #endif
 #if BRC_PRECISION == 0

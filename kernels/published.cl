@@ -93,6 +93,9 @@ LAW published_bond published_bond_at(members who, int slot, published_own own, O
     const lane_vec3 r = members_row3(who, branch, slot);
     const lane s = members_face1(who, area, slot);
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
+#if SPLIT_LOOPS
+    own.strain = lane_gather6_again(strain, own.row); /* not kept in registers from bond to bond */
+#endif
     const lane_sym3 e_j = lane_gather6(strain, j);
     const lane_quat q_j = lane_gather4(orientation, j);
     const published_moduli m = published_moduli_of(own.row, j, lambda_one, mu_one, young_one, lame_of);

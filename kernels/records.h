@@ -187,6 +187,11 @@ LAW lane_mat3 lane_gather9_again(GLOBAL const coeff *restrict p, lane_int row)
     GLOBAL const volatile coeff *const r = (GLOBAL const volatile coeff *)(p + (brc_size)row * 9);
     return (lane_mat3){r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]};
 }
+LAW lane_sym3 lane_gather6_again(GLOBAL const coeff *restrict p, lane_int row)
+{
+    GLOBAL const volatile coeff *const r = (GLOBAL const volatile coeff *)(p + (brc_size)row * 6);
+    return (lane_sym3){r[0], r[1], r[2], r[3], r[4], r[5]};
+}
 #else
 #define lane_gather9_again(p, row) lane_gather9(p, row)
 #endif

@@ -482,6 +482,9 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
     }
     if (n_items < 0 || n_items > INT32_MAX)
         return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: %lld work-items", kernel->name, (long long)n_items);
+    if (kernel->signature.items == BRC_OF_ROWS && n_items % kernel->device->lanes != 0)
+        return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: %lld rows are not whole groups of %d", kernel->name,
+                        (long long)n_items, kernel->device->lanes);
     for (int a = 0; a < n_args; ++a)
         if (args[a].kind == BRC_ARG_BUFFER && args[a].value.buffer && args[a].value.buffer->device != kernel->device)
             return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: argument %d (%s) lives on another device", kernel->name,

@@ -279,6 +279,7 @@ static void own_rows_alone_are_read_and_gathers_are_not(void **unused)
     static const char *const passes[] = {"dlsm_gradient",
                                          "dlsm_stress",
                                          "dlsm_flux_pass",
+                                         "dlsm_flux_linear",
                                          "dlsm_force",
                                          "dlsm_energy",
                                          "dlsm_gradient_listed",

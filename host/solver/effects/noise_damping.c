@@ -35,16 +35,17 @@ static brc_status make_passes(brc_simulation *s, struct brc_noise *d)
     static const brc_value_row of_velocities[] = {
         {"displacement", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, velocity)},
         {"lost", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, lost_damping)}};
-    static const brc_value_row values[] = {
-        {"ell_one", BRC_VALUE_REAL, AT(nothing)},  {"beta", BRC_VALUE_REAL, AT(nothing)},
-        {"face_loads", BRC_VALUE_BOOL, AT(never)}, {"finite", BRC_VALUE_BOOL, AT(never)},
-        {"factor", BRC_VALUE_REAL, AT(factor)},    {"drag", BRC_VALUE_BUFFER, AT(force)}};
+    static const brc_value_row values[] = {{"ell_one", BRC_VALUE_REAL, AT(nothing)},
+                                           {"beta", BRC_VALUE_REAL, AT(nothing)},
+                                           {"face_loads", BRC_VALUE_BOOL, AT(never)},
+                                           {"factor", BRC_VALUE_REAL, AT(factor)},
+                                           {"drag", BRC_VALUE_BUFFER, AT(force)}};
     const brc_scope run = brc_scope_of_run(s),
                     velocities = {.owner = "velocities", .base = s, BRC_VALUES(of_velocities), .outer = &run};
     const brc_scope noise = {
         .owner = "noise damping", .base = d, .tables = {&brc_noise_fields}, BRC_VALUES(values), .outer = &velocities};
     const brc_pass_wanted wanted[] = {
-        BRC_PASS(&d->gradient_pass, "dlsm_gradient", NULL), BRC_PASS(&d->flux_pass, "dlsm_flux_pass", NULL),
+        BRC_PASS(&d->gradient_pass, "dlsm_gradient", NULL), BRC_PASS(&d->flux_pass, "dlsm_flux_linear", NULL),
         BRC_PASS(&d->force_pass, "dlsm_force", NULL), BRC_PASS(&d->damp, "damp_noise", NULL)};
     return BRC_PASSES_MAKE(s, &noise, wanted);
 }

@@ -92,7 +92,7 @@ typedef struct brc_loads {
 
 /* Passes of the run; one that a model does not use stays NULL. */
 typedef struct brc_run_passes {
-    brc_pass *gradient, *stress, *flux, *force, *energy, *deformation;
+    brc_pass *gradient, *stress, *flux, *flux_linear, *force, *energy, *deformation;
     brc_pass *gradient_listed, *stress_listed, *flux_listed, *force_listed,
         *energy_listed; /* cells, only with fracture (rings.h) */
     brc_pass *published_force_listed, *published_energy_listed;

@@ -101,8 +101,8 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
     if (r->rings && brc_rims_gain(s, r->rings))
         BRC_TRY(brc_rims_flux(s, r, moments));
     else
-        BRC_TRY(brc_pass_over(s, s->pass.flux, s->pass.flux_listed, flux_list, x->flux, r,
-                              BRC_GIVEN({"face_loads", BRC_INT(moments ? 1 : 0)})));
+        BRC_TRY(brc_pass_over(s, r->finite ? s->pass.flux : s->pass.flux_linear, s->pass.flux_listed, flux_list,
+                              x->flux, r, BRC_GIVEN({"face_loads", BRC_INT(moments ? 1 : 0)})));
     BRC_TRY(brc_closed_faces_flux(s, r, flux_list, x->flux));
     return r->homogeneous ? BRC_OK : brc_softening_flux(s, flux_list, x->flux);
 }

@@ -19,6 +19,7 @@ brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const b
         {&p->gradient, "dlsm_gradient", NULL, false},
         {&p->stress, "dlsm_stress", NULL, false},
         {&p->flux, "dlsm_flux_pass", "face_loads", false},
+        {&p->flux_linear, "dlsm_flux_linear", "face_loads", false},
         {&p->force, "dlsm_force", NULL, false},
         {&p->gradient_listed, "dlsm_gradient_listed", BRC_LISTED, whole},
         {&p->stress_listed, "dlsm_stress_listed", BRC_LISTED, whole},
