@@ -5,12 +5,13 @@
 #include "../host/solver/run/simulation.h"
 #include <math.h>
 
-enum { WARM_STEPS = 600, SAMPLES = 5, TRIAL_LAUNCHES = 2000, TRIAL_WAITS = 200 };
+enum { WARM_STEPS = 600, SAMPLES = 5, TRIAL_LAUNCHES = 2000, TRIAL_WAITS = 200, SMALL = 4000 };
 /* Strength that nothing reaches [Pa]. */
 static const double endless = 1e15;
 /* What an NVIDIA H200 is taken for until one was measured: bandwidth as measured elsewhere, the others usual for its
  * driver. */
-static const brc_device_price h200 = {.launch_s = 4e-6, .wait_s = 20e-6, .copy_bandwidth = 4.3e12};
+static const brc_device_price h200 = {
+    .launch_s = 4e-6, .wait_s = 20e-6, .copy_bandwidth = 4.3e12, .pass_bandwidth = INFINITY};
 
 typedef struct effect {
     const char *name;
@@ -23,7 +24,7 @@ static const effect effects[] = {{"elastic", false, false},
 
 static double price_of(const brc_device_price *p, double launches, double waits, double bytes)
 {
-    return launches * p->launch_s + waits * p->wait_s + bytes / p->copy_bandwidth;
+    return launches * p->launch_s + waits * p->wait_s + bytes / fmin(p->copy_bandwidth, p->pass_bandwidth);
 }
 
 brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes, brc_device_price *out)
@@ -32,6 +33,7 @@ brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes,
     brc_buffer *x = NULL, *y = NULL;
     brc_kernel *copy = NULL;
     double number[8];
+    out->pass_bandwidth = INFINITY;
     BRC_TRY(brc_device_copy_bandwidth(device, bandwidth_bytes, &out->copy_bandwidth));
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &x, sizeof number, "bench numbers"));
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &y, sizeof number, "bench numbers"));
@@ -55,6 +57,12 @@ cleanup:
     return status;
 }
 
+/* Steps of a body under an effect, counted and timed. */
+typedef struct {
+    brc_device_counts work;
+    double seconds, floor_bytes; /* of a step */
+} step_work;
+
 /* Work of n steps, and the least seconds of a step of several samples. */
 static brc_status count_steps(brc_device *device, brc_simulation *simulation, int64_t n, brc_device_counts *work,
                               double *seconds)
@@ -77,40 +85,37 @@ static brc_status count_steps(brc_device *device, brc_simulation *simulation, in
     return BRC_OK;
 }
 
-static void add_figures(const brc_launches_request *r, const brc_domain *domain, double floor_bytes,
-                        const brc_device_counts *work, double seconds, const brc_device_price *price, brc_rows *rows)
+static void add_figures(const brc_launches_request *r, const brc_domain *domain, const step_work *step,
+                        const brc_device_price *price, brc_rows *rows)
 {
+    const brc_device_counts *const work = &step->work;
     const double n = (double)r->n_steps, launches = (double)work->launches / n, waits = (double)work->waits / n,
-                 told = price_of(price, launches, waits, floor_bytes);
+                 told = price_of(price, launches, waits, step->floor_bytes);
     brc_rows_number(rows, "ours", launches);
     brc_rows_number(rows, "launches_per_step", launches);
     brc_rows_number(rows, "waits_per_1000_steps", 1000 * waits);
     brc_rows_number(rows, "read_bytes_per_step", (double)work->read_bytes / n);
     brc_rows_number(rows, "written_bytes_per_step", (double)work->written_bytes / n);
     brc_rows_number(rows, "copied_bytes_per_step", (double)work->copied_bytes / n);
-    brc_rows_number(rows, "floor_bytes_per_step", floor_bytes);
+    brc_rows_number(rows, "floor_bytes_per_step", step->floor_bytes);
     brc_rows_number(rows, "launch_s", price->launch_s);
     brc_rows_number(rows, "wait_s", price->wait_s);
     brc_rows_number(rows, "copy_bandwidth", price->copy_bandwidth);
-    brc_rows_number(rows, "seconds", seconds);
+    brc_rows_number(rows, "pass_bandwidth", price->pass_bandwidth);
+    brc_rows_number(rows, "seconds", step->seconds);
     brc_rows_number(rows, "seconds_by_model", told);
-    brc_rows_number(rows, "model_over_seconds", told / seconds);
-    brc_rows_number(rows, "h200_seconds_by_model", price_of(&h200, launches, waits, floor_bytes));
+    brc_rows_number(rows, "model_over_seconds", told / step->seconds);
+    brc_rows_number(rows, "h200_seconds_by_model", price_of(&h200, launches, waits, step->floor_bytes));
     brc_rows_integer(rows, "elements", domain->n_elements);
     brc_rows_integer(rows, "bonds", domain->n_bonds);
 }
 
-static brc_status measure(brc_context *context, const brc_launches_request *r, const brc_domain *domain,
-                          brc_model_kind model, const effect *e, brc_rows *rows)
+static brc_status steps_of(brc_context *context, const brc_launches_request *r, brc_device *device,
+                           const brc_domain *domain, brc_model_kind model, const effect *e, step_work *out)
 {
     brc_status status = BRC_OK;
-    brc_device *device = NULL;
     brc_simulation *simulation = NULL;
     brc_cube c;
-    brc_device_counts work;
-    brc_device_price price;
-    double seconds;
-    const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
     brc_cube_make(&c, model);
     if (e->fracture) {
         c.scene.has_fracture = true;
@@ -121,38 +126,71 @@ static brc_status measure(brc_context *context, const brc_launches_request *r, c
         c.scene.has_contact = true;
         c.scene.contact = (brc_contact){.within = true, .rotation = true};
     }
-    BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
-    BRC_TRY_OR(cleanup, brc_device_price_measure(device, r->bandwidth_bytes, &price));
-    BRC_TRY_OR(cleanup, brc_simulation_create(context, &c.scene, domain, device, &simulation));
-    BRC_TRY_OR(cleanup, count_steps(device, simulation, r->n_steps, &work, &seconds));
+    BRC_TRY(brc_simulation_create(context, &c.scene, domain, device, &simulation));
+    status = count_steps(device, simulation, r->n_steps, &out->work, &out->seconds);
+    out->floor_bytes = brc_simulation_floor_bytes(simulation);
+    brc_simulation_free(&simulation);
+    return status;
+}
+
+/* The constants of the device for a model. */
+static brc_status measure_price(brc_context *context, const brc_launches_request *r, brc_device *device,
+                                brc_model_kind model, brc_device_price *out)
+{
+    brc_domain *small = NULL;
+    step_work elastic;
+    BRC_TRY(brc_device_price_measure(device, r->bandwidth_bytes, out));
+    BRC_TRY(brc_cube_build(context, SMALL, brc_cube_is_of_spheres(model), &small));
+    const brc_status status = steps_of(context, r, device, small, model, &effects[0], &elastic);
+    brc_domain_free(&small);
+    BRC_TRY(status);
+    const double launching = (double)elastic.work.launches / (double)r->n_steps * out->launch_s;
+    if (elastic.seconds > launching) out->pass_bandwidth = elastic.floor_bytes / (elastic.seconds - launching);
+    return BRC_OK;
+}
+
+static brc_status measure(brc_context *context, const brc_launches_request *r, brc_device *device,
+                          const brc_device_price *price, const brc_domain *domain, brc_model_kind model,
+                          const effect *e, brc_rows *rows)
+{
+    step_work step;
+    BRC_TRY(steps_of(context, r, device, domain, model, e, &step));
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "launches");
     brc_rows_text(rows, "quantity", e->name);
     brc_rows_text(rows, "model", brc_model_name(model));
     brc_rows_text(rows, "unit", "1/step");
-    add_figures(r, domain, brc_simulation_floor_bytes(simulation), &work, seconds, &price, rows);
+    add_figures(r, domain, &step, price, rows);
     brc_rows_text(rows, "precision", brc_precision_name(r->precision));
     brc_rows_text(rows, "device", r->device);
     brc_rows_text(rows, "device_name", brc_device_get_info(device)->name);
     brc_rows_integer(rows, "threads", brc_device_get_info(device)->compute_units);
     brc_rows_stamp(rows);
-    status = rows->status != BRC_OK ? rows->status : r->row ? r->row(r->self, rows) : BRC_OK;
+    return rows->status != BRC_OK ? rows->status : r->row ? r->row(r->self, rows) : BRC_OK;
+}
+
+static brc_status measure_model(brc_context *context, const brc_launches_request *r, brc_model_kind model,
+                                brc_rows *rows)
+{
+    brc_status status = BRC_OK;
+    brc_domain *domain = NULL;
+    brc_device *device = NULL;
+    brc_device_price price;
+    const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
+    BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
+    BRC_TRY_OR(cleanup, measure_price(context, r, device, model, &price));
+    BRC_TRY_OR(cleanup, brc_cube_build(context, r->size, brc_cube_is_of_spheres(model), &domain));
+    for (size_t k = 0; k < sizeof effects / sizeof effects[0]; ++k)
+        BRC_TRY_OR(cleanup, measure(context, r, device, &price, domain, model, &effects[k], rows));
 cleanup:
-    brc_simulation_free(&simulation);
+    brc_domain_free(&domain);
     brc_device_close(&device);
     return status;
 }
 
 brc_status brc_launches_measure(brc_context *context, const brc_launches_request *request, brc_rows *rows)
 {
-    for (int m = 0; m < request->n_models; ++m) {
-        brc_domain *domain = NULL;
-        BRC_TRY(brc_cube_build(context, request->size, brc_cube_is_of_spheres(request->models[m]), &domain));
-        brc_status status = BRC_OK;
-        for (size_t k = 0; k < sizeof effects / sizeof effects[0] && status == BRC_OK; ++k)
-            status = measure(context, request, domain, request->models[m], &effects[k], rows);
-        brc_domain_free(&domain);
-        BRC_TRY(status);
-    }
+    for (int m = 0; m < request->n_models; ++m)
+        BRC_TRY(measure_model(context, request, request->models[m], rows));
     return BRC_OK;
 }

@@ -1,8 +1,9 @@
 /* `breccia bench launches`: what a step asks of a device, counted: launches, times the host waits, bytes between host
  * and device; and what that is worth by a model of the device, seconds = launches x launch + waits x wait + least bytes
- * / copy bandwidth, whose constants are measured here, and for a card given in docs/notebook/devices.md. Noisy-grid
- * cubes and packings as of `bench throughput`: elastic, with fracture and contact where nothing breaks and nothing is
- * near. */
+ * / bandwidth, whose constants are measured here, and for a card given in docs/notebook/devices.md. The bandwidth is
+ * that of copying or, where arithmetic takes longer, as on a CPU, what the passes of a small elastic body reach in
+ * cache. Noisy-grid cubes and packings as of `bench throughput`: elastic, with fracture and contact where nothing
+ * breaks and nothing is near. */
 #ifndef BRC_BENCH_LAUNCHES_H
 #define BRC_BENCH_LAUNCHES_H
 
@@ -14,6 +15,7 @@
 typedef struct brc_device_price {
     double launch_s, wait_s; /* of a launch with nothing to do, of a read of a number */
     double copy_bandwidth;   /* [byte/s] */
+    double pass_bandwidth;   /* least bytes of elastic steps over the seconds of their passes, in cache [byte/s] */
 } brc_device_price;
 
 typedef struct brc_launches_request {
@@ -32,7 +34,7 @@ typedef struct brc_launches_request {
 
 /* Adds a row for each model and effect. */
 brc_status brc_launches_measure(brc_context *context, const brc_launches_request *request, brc_rows *rows);
-/* The constants of an open device. */
+/* The constants of an open device but for pass_bandwidth, which is that of a model: infinite. */
 brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes, brc_device_price *out);
 
 #endif

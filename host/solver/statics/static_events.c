@@ -149,10 +149,21 @@ static brc_status unload(events *v)
     return BRC_OK;
 }
 
+/* Pieces that nothing holds are far from balance; what is near it is a solve that does not get further. */
 static brc_status come_apart(events *v)
 {
+    static const double stalled = 1e-6; /* residual over load */
+    char reason[200] = "the body came apart: what is left has no equilibrium under load";
+    double worst = 0;
+    for (int32_t k = 0; k < v->n; ++k)
+        worst = fmax(worst, v->part[k]->static_report.residual);
+    if (worst < stalled)
+        snprintf(reason, sizeof reason,
+                 "the solve of the next event stalls at a residual of %.3g of the load, asked %.3g: relax `tolerance`, "
+                 "or hold what moves freely",
+                 worst, brc_statics_tolerance(v->part[0]));
     BRC_TRY(unload(v));
-    brc_simulation_end_stage(v->part[0], "the body came apart: what is left has no equilibrium under load");
+    brc_simulation_end_stage(v->part[0], reason);
     return BRC_OK;
 }
 
