@@ -229,7 +229,8 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
                 return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                                 "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d "
                                 "corrections, asked %.3g; "
-                                "check that the loads balance or the supports hold every motion of the body, use more increments, or "
+                                "check that the loads balance or the supports hold every motion of the body, use more "
+                                "increments, or "
                                 "relax `tolerance`",
                                 stage->name, s->load_factor, norm / *reference, correction, tolerance);
             brc_preconditioner_give_up(s, v);

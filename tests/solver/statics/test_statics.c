@@ -230,8 +230,8 @@ static void loads_that_do_not_balance_are_refused(void **state)
                                  .stages = "  - name: push\n    solver: {static: {increments: 1}}\n    loads:\n"
                                            "      - traction: {set: x+, x: 1 uPa, y: 0, z: 0}\n"});
     assert_int_equal(brc_simulation_run(c.simulation), BRC_PHYSICS_STOPPED);
-    assert_non_null(
-        strstr(brc_context_message(c.context), "check that the loads balance or the supports hold every motion of the body"));
+    assert_non_null(strstr(brc_context_message(c.context),
+                           "check that the loads balance or the supports hold every motion of the body"));
     close_case(&c);
 }
 
