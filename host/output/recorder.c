@@ -1,7 +1,7 @@
 /* The recorder. While the simulation runs it samples the sensors, adds the samples to histories.csv and writes frames,
  * each with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here
  * draws: see picture.c, curve.c. */
-#include "recorder.h"
+#include "recorder_internal.h"
 #include "sensors/assembly_sensors.h"
 #include "cracks/crack_records.h"
 #include "pictures/curve.h"
@@ -11,7 +11,6 @@
 #include "pictures/picture.h"
 #include "result_file.h"
 #include "sensors/stop.h"
-#include "frames/striker_file.h"
 #include "summary.h"
 #include "../base/file.h"
 #include "../base/log.h"
@@ -22,64 +21,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    SUMMARY,
-    RESULT,
-    HISTORIES,
-    CRACKS,
-    FRAGMENTS,
-    PICTURE,
-    CURVE,
-    SERIES,
-    CRACK_SERIES,
-    STRIKER_SERIES,
-    FRAMES,
-    PICTURES,
-    N_FILES
-};
-static const char *const FILE_NAME[N_FILES] = {
+static const char *const FILE_NAME[BRC_N_RECORDS] = {
     "summary.json",      "result.h5",           "histories.csv", "cracks.csv",
     "fragments.csv",     "picture.png",         "curve.png",     "frames.vtkhdf.series",
     "cracks.vtu.series", "strikers.vtu.series", "frames",        "pictures"};
 
-struct brc_recorder {
-    brc_context *context;
-    char *path[N_FILES]; /* owned */
-    const brc_scene *scene;
-    const brc_prediction *prediction;
-    int32_t n_domains;
-    const brc_domain *const *domains; /* [n_domains] */
-    brc_assembly *assembly;
-    brc_assembly_sensors *sensors;
-    brc_history *history;
-    brc_history_csv *csv;
-    double *value; /* [n_sensors] of the sample being taken */
-    int64_t n_frames;
-    double *frame_time; /* [n_frames] for the index: strictly rising */
-    brc_measured *measures;
-    int32_t n_measures;
-    brc_crack_records *cracks; /* NULL: nothing can break */
-    brc_frames *frames;        /* NULL: no frames are wanted */
-    int n_threads;
-    brc_checkpoint_report checkpoints;
-    double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
-};
-
 /* ---- the folder ---- */
-
-/* Frames and pictures from number `first` on. */
-static brc_status remove_frames(const brc_recorder *recorder, int64_t first)
-{
-    BRC_TRY(brc_earlier_remove_numbered(recorder->context, recorder->path[FRAMES], first));
-    return brc_earlier_remove_numbered(recorder->context, recorder->path[PICTURES], first);
-}
 
 /* An older run's results beside this one's would mislead. */
 static brc_status clean(brc_recorder *recorder)
 {
-    for (int k = 0; k < FRAMES; ++k)
+    for (int k = 0; k < BRC_RECORD_FRAMES; ++k)
         BRC_TRY(brc_earlier_remove_file(recorder->context, recorder->path[k]));
-    return remove_frames(recorder, 0);
+    return brc_recorder_remove_frames(recorder, 0);
 }
 
 static brc_status write_summary(brc_recorder *recorder, brc_context *context, bool running, brc_status end,
@@ -105,7 +59,7 @@ static brc_status write_summary(brc_recorder *recorder, brc_context *context, bo
         .end = end,
         .reason = reason,
     };
-    return brc_summary_write(context, &summary, recorder->path[SUMMARY]);
+    return brc_summary_write(context, &summary, recorder->path[BRC_RECORD_SUMMARY]);
 }
 
 static brc_status create(brc_context *context, const char *folder, double start, bool resumed, brc_recorder **out)
@@ -115,7 +69,7 @@ static brc_status create(brc_context *context, const char *folder, double start,
     *out = NULL;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &recorder, 1, "recorder"));
     *recorder = (brc_recorder){.context = context, .start = start, .build_s = NAN};
-    for (int k = 0; k < N_FILES; ++k)
+    for (int k = 0; k < BRC_N_RECORDS; ++k)
         BRC_TRY_OR(cleanup, brc_file_join(context, folder, FILE_NAME[k], &recorder->path[k]));
     BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder));
     if (!resumed) BRC_TRY_OR(cleanup, clean(recorder));
@@ -146,7 +100,7 @@ void brc_recorder_free(brc_recorder **recorder)
     brc_frames_free(&r->frames);
     brc_history_free(&r->history);
     brc_history_csv_free(&r->csv);
-    for (int k = 0; k < N_FILES; ++k)
+    for (int k = 0; k < BRC_N_RECORDS; ++k)
         brc_memory_free(r->path[k]);
     brc_memory_free(r->value);
     brc_memory_free(r->frame_time);
@@ -228,93 +182,12 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
         .n_frames = r->n_frames,
         .frame_time = r->frame_time,
     };
-    return brc_result_write(context, &result, r->path[RESULT]);
-}
-
-/* Viewers need rising times: physical time where some stage has it, else stages and their load factors; equal moments
- * (the end of a stage, the start of the next) are kept apart by the last digit. */
-static double index_time(const brc_recorder *r, const brc_simulation *simulation)
-{
-    bool dynamic = false;
-    for (int32_t s = 0; s < r->scene->n_stages; ++s)
-        dynamic |= r->scene->stages[s].solver == BRC_SOLVER_DYNAMIC;
-    const double time = dynamic ? brc_simulation_total_time(simulation)
-                                : brc_simulation_stage(simulation) + brc_simulation_time(simulation);
-    const double before = r->n_frames > 0 ? r->frame_time[r->n_frames - 1] : -INFINITY;
-    return time > before ? time : nextafter(before, INFINITY);
-}
-
-/* Beside the frame just written. */
-static brc_status write_cracks(brc_recorder *r)
-{
-    const bool surface = r->scene->output.crack_surface;
-    char name[32];
-    char *path = NULL;
-    snprintf(name, sizeof name, "%06lld.cracks.vtu", (long long)r->n_frames - 1);
-    BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
-    const brc_status status = brc_crack_records_frame(r->context, r->cracks, r->n_frames - 1, surface ? path : NULL);
-    brc_memory_free(path);
-    return status;
-}
-
-static brc_status write_strikers(brc_recorder *r)
-{
-    char name[40];
-    char *path = NULL;
-    snprintf(name, sizeof name, "%06lld.strikers.vtu", (long long)r->n_frames - 1);
-    BRC_TRY(brc_file_join(r->context, r->path[FRAMES], name, &path));
-    const brc_status status = brc_striker_file_write(r->context, r->assembly, path);
-    brc_memory_free(path);
-    return status;
-}
-
-/* Beside the frame just written. */
-static brc_status draw_frame(brc_recorder *r)
-{
-    char name[32];
-    char *path = NULL;
-    snprintf(name, sizeof name, "%06lld.png", (long long)r->n_frames - 1);
-    BRC_TRY(brc_file_make_folder(r->context, r->path[PICTURES]));
-    BRC_TRY(brc_file_join(r->context, r->path[PICTURES], name, &path));
-    const brc_status status = brc_picture_write(r->context, r->assembly, path);
-    brc_memory_free(path);
-    return status;
-}
-
-static bool has_strikers(const brc_recorder *r)
-{
-    return brc_simulation_n_strikers(r->assembly->part[0]) > 0;
-}
-
-/* Indices of the frames and of what lies beside them. */
-static brc_status write_series(brc_recorder *r)
-{
-    const struct {
-        bool wanted;
-        const char *suffix;
-        int path;
-    } all[] = {{true, ".vtkhdf", SERIES},
-               {r->cracks && r->scene->output.crack_surface, ".cracks.vtu", CRACK_SERIES},
-               {has_strikers(r), ".strikers.vtu", STRIKER_SERIES}};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
-        if (all[k].wanted)
-            BRC_TRY(
-                brc_frame_write_series(r->context, r->n_frames, r->frame_time, all[k].suffix, r->path[all[k].path]));
-    return BRC_OK;
+    return brc_result_write(context, &result, r->path[BRC_RECORD_RESULT]);
 }
 
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 {
-    if (r->n_frames == 0) BRC_TRY(brc_file_make_folder(r->context, r->path[FRAMES]));
-    BRC_TRY(
-        brc_memory_resize(r->context, (void **)&r->frame_time, r->n_frames + 1, sizeof *r->frame_time, "frame times"));
-    BRC_TRY(brc_frames_write(r->frames, r->path[FRAMES], r->n_frames));
-    r->frame_time[r->n_frames] = index_time(r, simulation);
-    ++r->n_frames;
-    if (r->cracks) BRC_TRY(write_cracks(r));
-    if (has_strikers(r)) BRC_TRY(write_strikers(r));
-    if (r->scene->output.picture_frames) BRC_TRY(draw_frame(r));
-    BRC_TRY(write_series(r));
+    BRC_TRY(brc_recorder_add_frame(r, simulation));
     return write_index(r, r->context, NULL);
 }
 
@@ -351,10 +224,11 @@ static brc_status observe(brc_recorder *recorder)
 brc_status brc_recorder_observe(brc_recorder *recorder, brc_assembly *assembly)
 {
     BRC_TRY(prepare(recorder, assembly));
-    BRC_TRY(brc_history_csv_create(recorder->context, recorder->scene, recorder->path[HISTORIES], &recorder->csv));
+    BRC_TRY(brc_history_csv_create(recorder->context, recorder->scene, recorder->path[BRC_RECORD_HISTORIES],
+                                   &recorder->csv));
     if (brc_simulation_has_fracture(assembly->part[0]))
-        BRC_TRY(brc_crack_records_create(recorder->context, assembly, recorder->path[CRACKS], recorder->path[FRAGMENTS],
-                                         &recorder->cracks));
+        BRC_TRY(brc_crack_records_create(recorder->context, assembly, recorder->path[BRC_RECORD_CRACKS],
+                                         recorder->path[BRC_RECORD_FRAGMENTS], &recorder->cracks));
     return observe(recorder);
 }
 
@@ -384,21 +258,22 @@ static void look_for_frames(const brc_recorder *r)
     char name[32], *path = NULL;
     for (int64_t k = 0; k < r->n_frames; ++k) {
         snprintf(name, sizeof name, "%06lld.vtkhdf", (long long)k);
-        if (brc_file_join(r->context, r->path[FRAMES], name, &path) == BRC_OK) missing += !brc_file_exists(path);
+        if (brc_file_join(r->context, r->path[BRC_RECORD_FRAMES], name, &path) == BRC_OK)
+            missing += !brc_file_exists(path);
         brc_memory_free(path);
     }
     if (missing)
         brc_log(r->context, BRC_LOG_WARNING, "%s: %lld of the %lld frames before the checkpoint are not there",
-                r->path[FRAMES], (long long)missing, (long long)r->n_frames);
+                r->path[BRC_RECORD_FRAMES], (long long)missing, (long long)r->n_frames);
 }
 
 /* The folder as it was at the last frame before the checkpoint. */
 static brc_status go_back(brc_recorder *r)
 {
     look_for_frames(r);
-    BRC_TRY(remove_frames(r, r->n_frames));
+    BRC_TRY(brc_recorder_remove_frames(r, r->n_frames));
     if (r->n_frames == 0) return BRC_OK;
-    BRC_TRY(write_series(r));
+    BRC_TRY(brc_recorder_write_series(r));
     return write_index(r, r->context, NULL);
 }
 
@@ -408,8 +283,9 @@ brc_status brc_recorder_resume(brc_recorder *recorder, brc_assembly *assembly, b
     BRC_TRY(prepare(r, assembly));
     BRC_TRY(store_position(r, store));
     if (brc_simulation_has_fracture(assembly->part[0]))
-        BRC_TRY(brc_crack_records_resume(r->context, assembly, r->path[CRACKS], r->path[FRAGMENTS], store, &r->cracks));
-    BRC_TRY(brc_history_csv_create(r->context, r->scene, r->path[HISTORIES], &r->csv));
+        BRC_TRY(brc_crack_records_resume(r->context, assembly, r->path[BRC_RECORD_CRACKS],
+                                         r->path[BRC_RECORD_FRAGMENTS], store, &r->cracks));
+    BRC_TRY(brc_history_csv_create(r->context, r->scene, r->path[BRC_RECORD_HISTORIES], &r->csv));
     BRC_TRY(brc_history_csv_add(r->context, r->csv, r->history));
     BRC_TRY(go_back(r));
     return observe(r);
@@ -455,7 +331,7 @@ static brc_status write_curve(brc_recorder *r, brc_context *quiet)
     char set[BRC_NAME];
     bool made;
     brc_curve_area_set(r->scene, set);
-    return brc_curve_write(quiet, r->scene, domain_of(r, set), r->history, r->path[CURVE], &made);
+    return brc_curve_write(quiet, r->scene, domain_of(r, set), r->history, r->path[BRC_RECORD_CURVE], &made);
 }
 
 static void write_results(brc_recorder *r, brc_context *quiet, brc_status *status, const brc_ledger *ledger)
@@ -466,7 +342,7 @@ static void write_results(brc_recorder *r, brc_context *quiet, brc_status *statu
     note(r, quiet, brc_history_csv_finish(quiet, r->csv, r->history), status);
     if (*status == BRC_FILE_FAILED) return; /* no room for pictures */
     if (r->scene->output.picture && ledger) /* a simulation that gives no ledger has no state to show */
-        warn(r, quiet, brc_picture_write(quiet, r->assembly, r->path[PICTURE]), "picture");
+        warn(r, quiet, brc_picture_write(quiet, r->assembly, r->path[BRC_RECORD_PICTURE]), "picture");
     if (r->scene->output.curve_x[0] && r->scene->output.curve_y[0]) warn(r, quiet, write_curve(r, quiet), "curve");
 }
 
@@ -523,7 +399,7 @@ const brc_measured *brc_recorder_measures(const brc_recorder *recorder)
 
 const char *brc_recorder_path(const brc_recorder *recorder, const char *name)
 {
-    for (int k = 0; k < FRAMES; ++k)
+    for (int k = 0; k < BRC_RECORD_FRAMES; ++k)
         if (strcmp(name, FILE_NAME[k]) == 0) return brc_file_exists(recorder->path[k]) ? recorder->path[k] : NULL;
     return NULL;
 }

@@ -5,8 +5,8 @@ import repository
 
 # portable.h asks which compiler reads it; vec.h and records.h load and store; convex_*.h clip polygons, which takes private arrays, and walk
 # along faces; the last two list the kernels.
-NOT_LAWS = {"kernels/portable.h", "kernels/vec.h", "kernels/records.h", "kernels/convex_overlap.h", "kernels/convex_wall.h",
-            "kernels/convex_sphere.h", "kernels/kernel_list.h", "kernels/kernels.h"}
+NOT_LAWS = {"kernels/portable.h", "kernels/vec.h", "kernels/records.h", "kernels/convex_body.h", "kernels/convex_overlap.h",
+            "kernels/convex_wall.h", "kernels/convex_sphere.h", "kernels/kernel_list.h", "kernels/kernels.h"}
 POINTER = re.compile(r"\b(?:lane(?:_\w+)?|coeff|state|int|uint|char|void|brc_\w+)\s*(?:const\s*)?\*|->|\bGLOBAL\b|"
                      r"(?<![&\w\s])\s*&\s*(?=[A-Za-z_])(?!&)")
 LITERAL = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?(\w?)")

@@ -184,7 +184,8 @@ static void set_up(bench *b, const char *name, bool many_materials)
     const bool listed = strcmp(second, "n") == 0; /* ... of a list of one */
     char first[NAME];
     brc_kernel_parameter(b->kernel, 0, first, sizeof first);
-    b->n_items = listed ? 1 : strcmp(first, "n") == 0 ? b->n : b->n / b->lanes;
+    const bool by_element = strcmp(first, "n") == 0 || strcmp(first, "n_rows") == 0;
+    b->n_items = listed ? 1 : by_element ? b->n : b->n / b->lanes;
     b->args[0] = BRC_INT(b->n_items);
 }
 

@@ -460,6 +460,7 @@ brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, co
                 .picture = picture,
                 .scale = picture->scale,
                 .view = picture->view ? *picture->view : brc_paint_corner_view()};
+    const int32_t all = picture->n + picture->n_strikers;
     brc_status status = BRC_OK;
     if (!(c.scale > 0)) c.scale = picture->steady ? 1 : brc_picture_automatic_scale(picture->n, picture->part);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.surface, picture->n, "parts of the picture"));
@@ -467,15 +468,12 @@ brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, co
         if (!is_sphere(&picture->part[k]))
             BRC_TRY_OR(cleanup, brc_picture_faces_make(context, picture->part[k].domain, picture->part[k].whole,
                                                        picture->cut, &c.surface[k]));
-    BRC_TRY_OR(cleanup,
-               BRC_ALLOCATE(context, &c.first_point, picture->n + picture->n_strikers + 1, "parts of the picture"));
-    BRC_TRY_OR(cleanup,
-               BRC_ALLOCATE(context, &c.first_face, picture->n + picture->n_strikers + 1, "parts of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_point, all + 1, "parts of the picture"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.first_face, all + 1, "parts of the picture"));
     for (int32_t k = 0; k < picture->n; ++k) {
         c.first_point[k + 1] = c.first_point[k] + n_points_of(&c, k);
         c.first_face[k + 1] = c.first_face[k] + n_faces_of(&c, k);
     }
-    const int32_t all = picture->n + picture->n_strikers;
     for (int32_t k = picture->n; k < all; ++k) {
         const brc_striker_surface *surface = &picture->striker[k - picture->n].body->surface;
         c.first_point[k + 1] = c.first_point[k] + surface->n_corners;
