@@ -127,15 +127,17 @@ def killed_twice(folder):
 
 SBATCH = """#!/bin/sh
 # Stands in for Slurm's: a copy of the script as Slurm makes one, a process a task with its number in the environment, so
-# many at once as the script says, the last number first, the first ten twice.
+# many at once as the script says, the last number first, then the first ten again: a task is not run beside itself.
 for script; do :; done
 cp "$script" "$TMPDIR/copy.sh"
 last=$(sed -n 's/^#SBATCH --array=0-\\([0-9]*\\)%.*/\\1/p' "$script")
 at_once=$(sed -n 's/^#SBATCH --array=.*%//p' "$script")
 log=$(sed -n 's/^#SBATCH --output="\\(.*\\)%a.txt"$/\\1/p' "$script")
 [ "$1" = --wait ] && [ -n "$last" ] && [ -n "$at_once" ] && [ -n "$log" ] || exit 1
-(seq "$last" -1 0; seq 0 9) | xargs -P "$at_once" -I @ sh -c \\
-    "SLURM_ARRAY_TASK_ID=@ sh '$TMPDIR/copy.sh' >'${log}@.txt' 2>&1 || exit 255"
+for tasks in "$last -1 0" "0 9"; do
+    seq $tasks | xargs -P "$at_once" -I @ sh -c \\
+        "SLURM_ARRAY_TASK_ID=@ sh '$TMPDIR/copy.sh' >'${log}@.txt' 2>&1 || exit 255" || exit 1
+done
 """
 
 
