@@ -124,7 +124,7 @@ typedef struct brc_arg {
 #define BRC_COEFF(x) ((brc_arg){.kind = BRC_ARG_COEFF, .value.real = (x)})
 #define BRC_DBL(x) ((brc_arg){.kind = BRC_ARG_DOUBLE, .value.real = (x)})
 
-/* Uses of a parameter: a value, or an array by the markers of kernels/portable.h. */
+/* Uses of a parameter: a value, or an array by the markers of portable.h. */
 typedef enum brc_use {
     BRC_USE_VALUE,
     BRC_USE_OWN,
@@ -146,7 +146,7 @@ const char *brc_kernel_name(const brc_kernel *kernel);
  * k-th. */
 int brc_kernel_parameters(const brc_kernel *kernel);
 brc_arg_kind brc_kernel_parameter(const brc_kernel *kernel, int k, char *name, size_t bytes);
-/* How it uses its k-th parameter, by the marker in the text (kernels/portable.h). */
+/* How it uses its k-th parameter, by the marker in the text (portable.h). */
 brc_use brc_kernel_use(const brc_kernel *kernel, int k);
 /* Enqueue over `n_items` work-items (FOR_EACH_ITEM: one each; FOR_EACH_SLICE: n_items = slices * C / W). Launches run
  * in order; nothing waits. The number and kinds of arguments are checked against the kernel's own in debug builds. */

@@ -1,14 +1,13 @@
-# cmake -DFOLDER=kernels -DOUTPUT=file.c -DHASH=file.h -P kernel_sources.cmake: every text of the folder as a C string,
+# cmake -DFOLDER=kernels -DOUTPUT=file.c -DHASH=file.h -P kernel_sources.cmake: every text of the folder, by its path there, as a C string,
 # and a hash of them all, by which the program knows whether a target plug-in was built from the same kernels.
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/text_to_c.cmake)
-file(GLOB files ${FOLDER}/*.h ${FOLDER}/*.cl)
+file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*.h ${FOLDER}/*.cl)
 list(SORT files)
 set(text "#include \"kernel_signature.h\"\nconst brc_kernel_file brc_kernel_files[] = {\n")
 set(count 0)
 set(all "")
-foreach(file IN LISTS files)
-    get_filename_component(name "${file}" NAME)
-    file(READ "${file}" content)
+foreach(name IN LISTS files)
+    file(READ "${FOLDER}/${name}" content)
     string(APPEND all "${name}\n${content}")
     brc_text_to_c(content "${content}")
     string(APPEND text "    {\"${name}\",\n     ${content}},\n")

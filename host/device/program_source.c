@@ -46,16 +46,20 @@ static brc_status load(paste *p, const char *name, const char **text, char **own
     return status;
 }
 
-/* The name in `#include "name"` at the start of a line, or nothing. */
-static bool included_name(const char *line, char name[64])
+/* The file that `#include "path"` at the start of a line names, seen from the folder of the file `by`; or nothing. */
+static bool included_name(const char *line, const char *by, char name[64])
 {
-    static const char head[] = "#include \"";
+    static const char head[] = "#include \"", up[] = "../";
     if (strncmp(line, head, sizeof head - 1) != 0) return false;
-    const char *const from = line + sizeof head - 1;
-    const size_t length = strcspn(from, "\"\n");
-    if (from[length] != '"' || length == 0 || length >= 64) return false;
-    memcpy(name, from, length);
-    name[length] = '\0';
+    const char *from = line + sizeof head - 1;
+    const char *const end = from + strcspn(from, "\"\n");
+    const char *const slash = strrchr(by, '/');
+    size_t inside = slash ? (size_t)(slash + 1 - by) : 0; /* of `by`, the folder that is left */
+    for (; inside > 0 && strncmp(from, up, sizeof up - 1) == 0; from += sizeof up - 1)
+        for (--inside; inside > 0 && by[inside - 1] != '/';)
+            --inside;
+    if (*end != '"' || end == from || inside + (size_t)(end - from) >= 64) return false;
+    snprintf(name, 64, "%.*s%.*s", (int)inside, by, (int)(end - from), from);
     return true;
 }
 
@@ -86,7 +90,7 @@ static brc_status paste_file(paste *p, const char *name)
         const char *const newline = strchr(line, '\n');
         const size_t length = newline ? (size_t)(newline - line) + 1 : strlen(line);
         char other[64];
-        if (included_name(line, other)) {
+        if (included_name(line, name, other)) {
             BRC_TRY_OR(cleanup, paste_file(p, other));
             snprintf(mark, sizeof mark, "\n#line %d \"%s\"\n", line_number + 1, name);
             BRC_TRY_OR(cleanup, append(p, mark, strlen(mark)));

@@ -1,4 +1,4 @@
-/* Convex polyhedra as flat arrays, ready for a device (kernels/convex_overlap.h): the cells of a domain, and the pieces
+/* Convex polyhedra as flat arrays, ready for a device (convex_overlap.h): the cells of a domain, and the pieces
  * of rigid shapes. */
 #ifndef BRC_PREPROCESS_CONVEX_H
 #define BRC_PREPROCESS_CONVEX_H

@@ -12,8 +12,8 @@ LONGER = {
 LONGER_FUNCTIONS = {
     ("host/solver/statics/gmres.c", "brc_gmres"): 90,
     ("host/commands/calibrate/strength_test.c", "brc_strength_test"): 100,
-    ("kernels/contact_cells.cl", "contact_cells"): 140, ("kernels/contact.cl", "contact_spheres"): 100,
-    ("kernels/softening.cl", "soft_move"): 83,
+    ("kernels/effects/contact/contact_cells.cl", "contact_cells"): 140, ("kernels/effects/contact/contact.cl", "contact_spheres"): 100,
+    ("kernels/models/dlsm/softening.cl", "soft_move"): 83,
     ("tests/solver/models/published/test_published_breaks.c", "evaluate"): 90,
 }
 

@@ -62,7 +62,7 @@ static void a_pass_has_one_list_and_a_name_for_each_of_its_readings(void **unuse
     assert_int_equal(listed.n, 0);
 }
 
-/* The tokens that a marker stands for, in kernels/portable.h. */
+/* The tokens that a marker stands for, in portable.h. */
 static void markers_are_const_where_they_do_not_write(void **unused)
 {
     (void)unused;
@@ -70,7 +70,7 @@ static void markers_are_const_where_they_do_not_write(void **unused)
         [BRC_USE_OWN] = "OWN",       [BRC_USE_GATHER] = "GATHER",   [BRC_USE_PUT] = "PUT",
         [BRC_USE_UPDATE] = "UPDATE", [BRC_USE_SCATTER] = "SCATTER",
     };
-    const char *const text = brc_kernel_text("portable.h");
+    const char *const text = brc_kernel_text("core/portable.h");
     for (int use = BRC_USE_OWN; use <= BRC_USE_SCATTER; ++use) {
         char define[96];
         const bool writes = brc_use_writes((brc_use)use);
@@ -89,12 +89,13 @@ static void the_pasted_text_holds_each_file_once_and_no_include(void **unused)
     assert_int_equal(brc_program_source(context, NULL, &embedded), BRC_OK);
     assert_null(strstr(embedded, "#include \"")); /* the C reading includes a system header */
     assert_ptr_equal(strstr(embedded, "#define BRC_KERNELS_HASH 0x"), embedded);
-    const char *const first = strstr(embedded, "#line 1 \"portable.h\"");
+    const char *const first = strstr(embedded, "#line 1 \"core/portable.h\"");
     assert_non_null(first);
-    assert_null(strstr(first + 1, "#line 1 \"portable.h\""));
-    const char *const passes = strstr(embedded, "#line 1 \"dlsm_passes.cl\""); /* but passes, which are read twice */
+    assert_null(strstr(first + 1, "#line 1 \"core/portable.h\""));
+    const char *const passes =
+        strstr(embedded, "#line 1 \"models/dlsm/dlsm_passes.cl\""); /* but passes, which are read twice */
     assert_non_null(passes);
-    assert_non_null(strstr(passes + 1, "#line 1 \"dlsm_passes.cl\""));
+    assert_non_null(strstr(passes + 1, "#line 1 \"models/dlsm/dlsm_passes.cl\""));
     /* the files on disk give the same text, hash included: nothing was changed by embedding */
     assert_int_equal(brc_program_source(context, BRC_SOURCE_DIR_PATH "/kernels", &read), BRC_OK);
     assert_string_equal(embedded, read);

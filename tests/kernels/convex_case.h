@@ -12,8 +12,8 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpsabi"
-#include "../../kernels/convex_sphere.h"
-#include "../../kernels/convex_wall.h"
+#include "../../kernels/effects/contact/convex_sphere.h"
+#include "../../kernels/effects/contact/convex_wall.h"
 #include <stdint.h>
 
 enum { CONVEX_CASE_CORNERS = 256, CONVEX_CASE_FACES = 256, CONVEX_CASE_LOOPS = 2048 };

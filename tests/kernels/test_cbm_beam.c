@@ -1,7 +1,7 @@
 /* One beam of model cbm: forces against the gradient of the energy, action and reaction, rigid motion, analytic beams.
  * One lane, double. */
 #include "one_lane.h"
-#include "../../kernels/cbm_beam.h"
+#include "../../kernels/models/cbm/cbm_beam.h"
 
 static const cbm_stiffness STIFF = {3.0, 0.7, 0.4}; /* of a beam about as long as 1 */
 

@@ -1,7 +1,7 @@
 /* The room of a bond of dlsm below its limit: it spares no bond whose half of the stress is above the limit, and spares
  * those that are clearly below. One lane, double. */
 #include "one_lane.h"
-#include "../../kernels/cell_normal.h"
+#include "../../kernels/models/dlsm/cell_normal.h"
 #include <stdbool.h>
 
 enum { STATES = 20000 };

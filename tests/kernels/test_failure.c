@@ -1,6 +1,6 @@
 /* Principal values and directions, and limits on them. One lane, double. */
 #include "one_lane.h"
-#include "../../kernels/failure.h"
+#include "../../kernels/effects/fracture/failure.h"
 #include <float.h>
 
 enum { STATES = 2000 };

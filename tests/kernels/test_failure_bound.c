@@ -1,8 +1,8 @@
 /* The bound that spares elements their stresses: above the ratio itself, sublinear, and tight where it matters. One
  * lane, double. */
 #include "one_lane.h"
-#include "../../kernels/failure.h"
-#include "../../kernels/failure_bound.h"
+#include "../../kernels/effects/fracture/failure.h"
+#include "../../kernels/effects/fracture/failure_bound.h"
 #include <stdbool.h>
 
 enum { STATES = 5000, KINDS = 4 };

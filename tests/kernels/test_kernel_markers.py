@@ -1,6 +1,7 @@
-"""Markers of every array of every kernel (kernels/portable.h: OWN, GATHER, PUT, UPDATE, SCATTER) against what the kernel's text does, by
+"""Markers of every array of every kernel (portable.h: OWN, GATHER, PUT, UPDATE, SCATTER) against what the kernel's text does, by
 clang's syntax tree: each kernel and the laws it calls are gone through with sets of names in place of numbers, which say through the
 contents of which arrays an index came about. Rows that follow from the work-item alone, or from a list of own rows, are its own."""
+import glob
 import json
 import os
 import re
@@ -315,10 +316,8 @@ def markers_of(kernel, accesses):
 def written_markers():
     """{kernel: {array: marker}} of the texts, passes under both names."""
     found = {}
-    for name in sorted(os.listdir(KERNELS)):
-        if not name.endswith(".cl"):
-            continue
-        with open(os.path.join(KERNELS, name), encoding="utf-8") as file:
+    for name in sorted(glob.glob(f"{KERNELS}/**/*.cl", recursive=True)):
+        with open(name, encoding="utf-8") as file:
             text = file.read()
         for match in re.finditer(r"KERNEL void\s+(PASS\()?(\w+)\)?\(((?:[^()]|\([^()]*\))*)\)", text):
             arrays = {array: marker for marker, array in re.findall(r"\b(OWN|GATHER|PUT|UPDATE|SCATTER)\(\w+\)\s+(\w+)", match.group(3))}

@@ -1,4 +1,4 @@
-/* Markers of arrays in signatures (kernels/portable.h) against what kernels read and write: numbers of other elements'
+/* Markers of arrays in signatures (portable.h) against what kernels read and write: numbers of other elements'
  * rows become NaN, and the results of one element must stay the same where an array is read at its own rows, and change
  * where it is gathered. The passes of an elastic step, on the C build. All other kernels: test_kernel_markers.py. */
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* The rotation vector of the published law against the exact one, over the angles it is made for. One lane, double. */
 #include "one_lane.h"
-#include "../../kernels/published_bond.h"
+#include "../../kernels/models/published/published_bond.h"
 
 static void rotation_vector_is_angle_times_axis_up_to_a_right_angle(void **state)
 {

@@ -15,10 +15,10 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpsabi"
-#include "../../kernels/convex_overlap.h"
-#include "../../kernels/rigid.h"
-#include "../../kernels/contact_place.cl"
-#include "../../kernels/contact_rigid.cl"
+#include "../../kernels/effects/contact/convex_overlap.h"
+#include "../../kernels/core/rigid.h"
+#include "../../kernels/effects/contact/contact_place.cl"
+#include "../../kernels/effects/contact/contact_rigid.cl"
 
 static const squat UPRIGHT = {1, 0, 0, 0};
 

@@ -1,6 +1,6 @@
-/* The cohesive law of one face (kernels/softening.h). One lane, double. */
+/* The cohesive law of one face (softening.h). One lane, double. */
 #include "one_lane.h"
-#include "../../kernels/sliding.h"
+#include "../../kernels/models/dlsm/sliding.h"
 
 static const soft_face faces[] = {{3, 0.7, 0}, {3, 0.7, 1}};
 

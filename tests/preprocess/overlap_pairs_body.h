@@ -7,7 +7,7 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpsabi"
-#include "../../kernels/convex_overlap.h"
+#include "../../kernels/effects/contact/convex_overlap.h"
 #include <stdlib.h>
 #include <time.h>
 

@@ -78,7 +78,7 @@ brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *va
     return from_rows(s, buffer, values, width, brc_precision_coeff_bytes(brc_device_get_precision(s->device)));
 }
 
-/* Room for LANE_SPARE numbers of kernels/portable.h: gathers read whole vectors. */
+/* Room for LANE_SPARE numbers of portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
 
 static brc_status new_array(brc_simulation *s, brc_buffer **out, int64_t count, int bytes, const char *what)

@@ -2,7 +2,7 @@
 #include "../../device/shares.h"
 #include "fields.h"
 
-/* Room for LANE_SPARE numbers of kernels/portable.h: gathers read whole vectors. */
+/* Room for LANE_SPARE numbers of portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
 
 int64_t brc_each_row(const brc_wants *w)

@@ -6,7 +6,7 @@
 #include <string.h>
 
 enum { WINDOW_SLICES = 32 };
-/* Kernels index rows of three components with an int (kernels/members.cl). */
+/* Kernels index rows of three components with an int (members.cl). */
 enum { MOST_ENTRIES = INT32_MAX / 3 };
 
 typedef struct sort_item {

@@ -3,7 +3,7 @@
  * of an evaluation, the arrays and numbers of an effect, those of the run. A launch then reads what stands there at the
  * time. Names that change with every launch are declared as open, and each launch gives all of them. The first
  * parameter of a kernel is its number of work-items. Markers in the signature say whether an array is read or written,
- * and at the rows of which elements (kernels/portable.h): rings around breaks follow from them. */
+ * and at the rows of which elements (portable.h): rings around breaks follow from them. */
 #ifndef BRC_SOLVER_PASSES_H
 #define BRC_SOLVER_PASSES_H
 

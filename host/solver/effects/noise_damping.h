@@ -1,7 +1,7 @@
 /* Damping of noise: a drag on what an element moves otherwise than its neighbours do, which leaves waves of more than a
  * few cells alone (docs/notebook/theory.md T9).
  *
- * With S the linear operator of the stabilisation energy without its compaction (kernels/dlsm_bond.h, beta 0: k (1 +
+ * With S the linear operator of the stabilisation energy without its compaction (dlsm_bond.h, beta 0: k (1 +
  * tau) |r|^2 / 2q of the residuals r, which vanish in every linear field) velocities lose z t_c n dt M^-1 S v at every
  * n-th step: z is the stage's noise_damping, t_c its critical step. The fastest oscillation of the body then has the
  * share z of its critical damping, at most, and a rigid motion or a uniform rate of strain has none. Model dlsm

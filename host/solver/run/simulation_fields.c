@@ -27,7 +27,7 @@ static bool numerical_losses(const brc_wants *w)
     return w->tchamwa || (brc_wants_deforming(w) && w->scene->has_fracture);
 }
 
-/* Blocks of a sum over three numbers a row (kernels/vector.cl). */
+/* Blocks of a sum over three numbers a row (vector.cl). */
 static int64_t each_partial(const brc_wants *w)
 {
     return (3 * (int64_t)w->layout->n_rows + 1023) / 1024 + 1;

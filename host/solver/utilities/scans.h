@@ -1,10 +1,10 @@
-/* Running sums and sorting on the device (kernels/scan.cl). */
+/* Running sums and sorting on the device (scan.cl). */
 #ifndef BRC_SOLVER_UTILITIES_SCANS_H
 #define BRC_SOLVER_UTILITIES_SCANS_H
 
 #include "../../device/device.h"
 
-enum { BRC_SCAN_BLOCK = 1024, BRC_SORT_BINS = 256 }; /* as in kernels/scan.cl */
+enum { BRC_SCAN_BLOCK = 1024, BRC_SORT_BINS = 256 }; /* as in scan.cl */
 
 typedef struct brc_scan_kernels {
     brc_kernel *sums, *tops, *fill, *count, *move;

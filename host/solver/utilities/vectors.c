@@ -1,7 +1,7 @@
-/* Algebra of vectors, and sums in fixed blocks (kernels/vector.cl). */
+/* Algebra of vectors, and sums in fixed blocks (vector.cl). */
 #include "../run/simulation_internal.h"
 
-enum { SUM_BLOCK = 1024 }; /* as in kernels/vector.cl */
+enum { SUM_BLOCK = 1024 }; /* as in vector.cl */
 
 brc_status brc_vector_kernels_find(brc_simulation *s)
 {

@@ -1,4 +1,4 @@
-/* Algebra of vectors on the device (kernels/vector.cl). */
+/* Algebra of vectors on the device (vector.cl). */
 #ifndef BRC_SOLVER_UTILITIES_VECTORS_H
 #define BRC_SOLVER_UTILITIES_VECTORS_H
 

@@ -11,7 +11,7 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wpsabi"
-#include "../../../kernels/convex_wall.h"
+#include "../../../kernels/effects/contact/convex_wall.h"
 
 static convex_shape shape_of(const brc_convex *c)
 {

@@ -7,7 +7,7 @@
 So for eighth.yaml, with --set sets.top.faces.box.to.0="5 mm" --set stages.0.solver.static="{finite_strain: false, tolerance: 1e-6}" and, as one word,
     --set stages.0.loads="[{face_displacement: {set: top, z: -90 um}}, {face_displacement: {set: disc_y-, y: 0}}, {face_displacement: {set: cut_x-, x: 0}}, {face_displacement: {set: cut_z-, z: 0}}]"
 
-Stress as kernels/cell_normal.h has it, for small strains: the mean stress of the two cells along the bond, with the bond's own elongation in place of theirs. Bonds within 3 mm of the loaded
+Stress as kernels/models/dlsm/cell_normal.h has it, for small strains: the mean stress of the two cells along the bond, with the bond's own elongation in place of theirs. Bonds within 3 mm of the loaded
 diameter whose direction is within 37 degrees of across; depth: below the nearer jaw. Differences are over the exact compression along the load there, stresses over 2 P / (pi D t)."""
 import json
 import os

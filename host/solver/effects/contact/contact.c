@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double sphere_depth = 0.1; /* CONTACT_DEPTH of kernels/contact_law.h */
+static const double sphere_depth = 0.1; /* CONTACT_DEPTH of contact_law.h */
 
 /* In static stages and modes surfaces know nothing of each other. */
 static bool sleeps(const brc_simulation *s)

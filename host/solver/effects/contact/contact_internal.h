@@ -10,15 +10,15 @@ enum {
     BRC_CONTACT_RESULT = 8,
     BRC_CONTACT_LAW = 6,
     BRC_CONTACT_PAIRS = 256
-}; /* as in kernels/contact_search.cl, contact.cl */
+}; /* as in contact_search.cl, contact.cl */
 enum {
     BRC_CONTACT_BLOCK = 256,
     BRC_CONTACT_PART = 16,
     BRC_CONTACT_DRIFT = 14,
     BRC_CONTACT_MOVED = 6
-}; /* as in kernels/contact_motion.cl */
+}; /* as in contact_motion.cl */
 
-/* Which pairs there are (kernels/contact_search.cl); kept twice, so that pairs find what they remember. */
+/* Which pairs there are (contact_search.cl); kept twice, so that pairs find what they remember. */
 typedef struct brc_contact_list {
     int32_t n_listed, n_pairs, n_busy; /* n_busy: listed elements that have pairs */
     int64_t entry_room, pair_room;
@@ -37,7 +37,7 @@ struct brc_contact_state {
     bool is_linear;   /* spheres: the law's normal force */
     bool affine;      /* dlsm: elements follow I + H; else they turn with quaternions of their own */
     int32_t width;    /* numbers of a moment: 9, else 3 */
-    int pose;         /* how elements stand: 0 spheres, 1 by I + H, 2 by their rotation (kernels/contact_motion.cl) */
+    int pose;         /* how elements stand: 0 spheres, 1 by I + H, 2 by their rotation (contact_motion.cl) */
     double skin;      /* of the list there is [m] */
     double size;      /* mean size of an element [m] */
     double middle[3]; /* of the domain: places are relative to it [m] */
@@ -107,7 +107,7 @@ void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out);
 /* ---- contact_setup.c ---- */
 /* Arrays of rows, laws of materials, who is exposed at the start. */
 brc_status brc_contact_setup(brc_simulation *s);
-/* Law of two materials (BRC_CONTACT_LAW numbers, kernels/contact_law.h). */
+/* Law of two materials (BRC_CONTACT_LAW numbers, contact_law.h). */
 const double *brc_contact_law_of(const brc_simulation *s, int32_t i, int32_t j);
 
 /* ---- contact_shapes.c ---- */

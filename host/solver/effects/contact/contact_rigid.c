@@ -1,4 +1,4 @@
-/* Cells of dlsm that have lost all their bonds, as rigid bodies (kernels/contact_rigid.cl). */
+/* Cells of dlsm that have lost all their bonds, as rigid bodies (contact_rigid.cl). */
 #include "../fracture/cell_breaks_internal.h"
 #include "contact_internal.h"
 #include "../loads/loaded_faces.h"

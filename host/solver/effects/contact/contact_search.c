@@ -1,4 +1,4 @@
-/* The list of pairs that may touch: a grid of hashed cells, sorted on the device (kernels/contact_search.cl,
+/* The list of pairs that may touch: a grid of hashed cells, sorted on the device (contact_search.cl,
  * scan.cl). */
 #include "contact_internal.h"
 #include "../strikers/strikers_internal.h"

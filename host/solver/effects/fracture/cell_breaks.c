@@ -6,7 +6,7 @@
 #include "../strikers/strikers_internal.h"
 #include <math.h>
 
-static const double never = 1e30; /* CELLS_NEVER of kernels/cells.cl */
+static const double never = 1e30; /* CELLS_NEVER of cells.cl */
 
 /* ---- what is made once ---- */
 

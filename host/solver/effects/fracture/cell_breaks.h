@@ -1,4 +1,4 @@
-/* Fracture of cells: how strong their bonds are, when they break, and the topology that is left (kernels/cells.cl). */
+/* Fracture of cells: how strong their bonds are, when they break, and the topology that is left (cells.cl). */
 #ifndef BRC_SOLVER_CELL_BREAKS_H
 #define BRC_SOLVER_CELL_BREAKS_H
 

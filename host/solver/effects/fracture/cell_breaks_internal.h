@@ -9,7 +9,7 @@
 
 struct brc_cell_breaks {
     brc_pass *force, *force_listed, *check, *ratio, *break_pass, *rebuild, *share, *elastic, *bonds;
-    brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force; /* kernels/rims.cl */
+    brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force; /* rims.cl */
     brc_rings *rings;                                             /* around the bonds that break */
     brc_buffer *limit, *twin, *alive, *mark, *measure;            /* [n_slots][C] */
     brc_buffer *modulus, *least, *support, *stiffest, *changed;   /* [n_rows] */
@@ -17,11 +17,11 @@ struct brc_cell_breaks {
     brc_buffer *weight, *found;                                   /* [n_rows] */
     struct brc_softening_faces *softening; /* faces that open against cohesion (cell_softening.c); NULL: none does */
     struct brc_closed_faces *closed; /* sides of broken faces that bear on each other (closed_faces.c); NULL: none do */
-    bool by_element;                 /* criteria of elements: what follows, and the arrays of kernels/fracture.cl */
-    brc_pass *record, *mark_chosen, *weigh; /* kernels/cell_criteria.cl */
+    bool by_element;                 /* criteria of elements: what follows, and the arrays of fracture.cl */
+    brc_pass *record, *mark_chosen, *weigh; /* cell_criteria.cl */
     brc_buffer *branch;                     /* dlsm: [n_slots][3][C], owned */
     brc_pass *breaking_strain, *breaking_force, *breaking_strain_listed,
-        *breaking_force_listed;  /* dlsm-published: kernels/published_breaks.cl */
+        *breaking_force_listed;  /* dlsm-published: published_breaks.cl */
     brc_buffer *spanned, *reach; /* [n_slices][6][C], [n_rows] */
 };
 

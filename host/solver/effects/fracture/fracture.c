@@ -1,4 +1,4 @@
-/* Bonds that break: limits of the elements, the order of the passes, and what broke (kernels/fracture.cl). */
+/* Bonds that break: limits of the elements, the order of the passes, and what broke (fracture.cl). */
 #include "cell_breaks.h"
 #include "fracture_internal.h"
 #include <math.h>
@@ -6,10 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    MOST_MEMBERS = 500,
-    MOST_ROWS = 1 << 28
-}; /* below SECOND_SHELL in kernels/fracture.cl; rows times 8 fit an int */
+enum { MOST_MEMBERS = 500, MOST_ROWS = 1 << 28 }; /* below SECOND_SHELL in fracture.cl; rows times 8 fit an int */
 
 const char *brc_break_mode_name(int32_t mode)
 {

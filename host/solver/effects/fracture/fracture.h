@@ -6,7 +6,7 @@
 #include "../../run/simulation.h"
 
 typedef enum brc_break_mode {
-    BRC_BREAK_TENSION = 1, /* the first three as in kernels/failure.h */
+    BRC_BREAK_TENSION = 1, /* the first three as in failure.h */
     BRC_BREAK_COMPRESSION,
     BRC_BREAK_SHEAR,
     BRC_BREAK_DETACHED /* cells: what was left of an element that its other bonds no longer held in place */

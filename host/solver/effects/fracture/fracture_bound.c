@@ -1,10 +1,10 @@
-/* What lets fracture_check pass by elements far from failure (kernels/fracture.cl): limits in common, volumes and
+/* What lets fracture_check pass by elements far from failure (fracture.cl): limits in common, volumes and
  * marks; and the factors of bonds that scatter or lie in an interface. */
 #include "fracture_internal.h"
 #include "strengths.h"
 #include <math.h>
 
-/* Room for the rounding of the bound and of what it bounds, as in failure_possible (kernels/failure.h). */
+/* Room for the rounding of the bound and of what it bounds, as in failure_possible (failure.h). */
 static const double MARGIN = 0.999;
 
 /* Smallest limit of every kind over all elements; 0: none has one. */

@@ -16,11 +16,11 @@ typedef struct brc_break_span {
 /* Everything that exists only in scenes with fracture. */
 struct brc_breaking {
     brc_pass *force, *stress_pass, *stress_second, *check, *choose, *ratio, *break_pass;
-    brc_buffer *record, *stress, *limits, *choice, *measure;           /* kernels/fracture.cl */
+    brc_buffer *record, *stress, *limits, *choice, *measure;           /* fracture.cl */
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy; /* [n_slots][C] */
     brc_buffer *lost, *broken;                                         /* [n_rows] */
     brc_buffer *gone; /* [n_rows] bonds that bear nothing any more; NULL: those that are broken */
-    brc_buffer *reach, *ease, *weight, *mark; /* kernels/fracture.cl */
+    brc_buffer *reach, *ease, *weight, *mark; /* fracture.cl */
     brc_buffer *branch;                       /* [n_slots][3][C] of its elements' bonds; borrowed */
     brc_buffer *factor, *weakest;             /* only if weighted */
     bool weighted;                            /* bonds differ in strength */
@@ -68,7 +68,7 @@ brc_status brc_fracture_begin_stage(brc_simulation *s);
 int64_t brc_fracture_moment(const brc_simulation *s);
 /* An event of a static stage at the present load factor: what brc_fracture_step breaks next belongs to it. */
 brc_status brc_fracture_begin_event(brc_simulation *s);
-/* After the forces of a step: break what fails. half_kick: as in kernels/fracture.cl. */
+/* After the forces of a step: break what fails. half_kick: as in fracture.cl. */
 brc_status brc_fracture_step(brc_simulation *s, double half_kick);
 /* Energy that left with broken bonds [J]. */
 brc_status brc_fracture_lost(brc_simulation *s, double *out);

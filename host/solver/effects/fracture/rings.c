@@ -1,6 +1,6 @@
 #include "rings.h"
 
-enum { BLOCK = 1024 }; /* SCAN_BLOCK of kernels/scan.cl */
+enum { BLOCK = 1024 }; /* SCAN_BLOCK of scan.cl */
 
 static int32_t blocks_of(const brc_simulation *s)
 {
@@ -105,7 +105,7 @@ static brc_status spread(brc_simulation *s, brc_rings *r, bool by_level, int fro
                    {"by_level", BRC_INT(by_level ? 1 : 0)});
 }
 
-enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in kernels/rings.cl */
+enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in rings.cl */
 
 static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
 {

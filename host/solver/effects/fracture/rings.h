@@ -1,5 +1,5 @@
-/* Elements around those whose bonds broke or whose faces are open, in rings by bonds (kernels/rings.cl), and element
- * passes over lists of them (kernels/members.cl). What a broken bond changes ends in the third ring of dlsm: H of its
+/* Elements around those whose bonds broke or whose faces are open, in rings by bonds (rings.cl), and element
+ * passes over lists of them (members.cl). What a broken bond changes ends in the third ring of dlsm: H of its
  * two elements, ring 0; P of ring 1, B of ring 2, forces of ring 3. In dlsm-published strains change in ring 0 and
  * forces in ring 1, and of what touches in ring 2. All of it exists only in scenes of cells with fracture. */
 #ifndef BRC_SOLVER_RINGS_H
@@ -23,7 +23,7 @@ typedef struct brc_rings {
     brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
     brc_ring_list around;        /* the bonds that broke in this step */
     double half_kick;            /* brc_fracture_step */
-    bool placed;                 /* level holds places (kernels/rings.cl) */
+    bool placed;                 /* level holds places (rings.cl) */
     bool whole_force;            /* for comparison: fluxes and forces of all elements */
 } brc_rings;
 

@@ -1,10 +1,10 @@
-/* Strikers: made from the scene, moved, and asked. How they move is in kernels/rigid.h and strikers.cl; what pushes
+/* Strikers: made from the scene, moved, and asked. How they move is in rigid.h and strikers.cl; what pushes
  * them is contact. */
 #include "strikers_internal.h"
 #include <math.h>
 #include <string.h>
 
-enum { TURNS = 8, PUSHED = 16 }; /* bits of `freedom` behind those of x y z, kernels/strikers.cl */
+enum { TURNS = 8, PUSHED = 16 }; /* bits of `freedom` behind those of x y z, strikers.cl */
 enum { N_PUSH = 4 };             /* numbers of each in push_now */
 
 static const brc_striker *asked(const brc_simulation *s, int32_t i)

@@ -15,7 +15,7 @@ typedef enum brc_piece_kind {
 } brc_piece_kind;
 
 /* Everything that exists only in scenes with strikers. What the buffers of numbers hold is told in
- * kernels/strikers.cl. */
+ * strikers.cl. */
 struct brc_strikers {
     int32_t n;
     brc_pass *advance, *place, *push_on, *book;

@@ -2,7 +2,7 @@
 #include "../../run/ahead.h"
 #include "beam_softening.h"
 
-enum { LEAN = 7 }; /* kernels/beam_closure.cl */
+enum { LEAN = 7 }; /* beam_closure.cl */
 
 struct brc_beam_closure {
     brc_pass *force, *energy, *virial, *move, *begin;

@@ -1,4 +1,4 @@
-/* Broken beams whose ends still bear on each other (kernels/beam_closure.cl; docs/notebook/fracture.md "Beams beside
+/* Broken beams whose ends still bear on each other (beam_closure.cl; docs/notebook/fracture.md "Beams beside
  * compression"). In dynamic stages of scenes with `fracture: {closure: true}`; without it, what is left of beams that
  * softened is taken off here as they end. Where beams neither soften nor shut every function here does nothing. */
 #ifndef BRC_SOLVER_BEAM_CLOSURE_H
@@ -20,7 +20,7 @@ brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial);
 
 /* Between the motion of a step and its forces: what stands clear bears no more. */
 brc_status brc_beam_closure_move(brc_simulation *s);
-/* After the breaks of a step; half_kick as in kernels/fracture.cl. */
+/* After the breaks of a step; half_kick as in fracture.cl. */
 brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half_kick);
 
 /* What a checkpoint keeps (state_store.h). */

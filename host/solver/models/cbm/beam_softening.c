@@ -6,7 +6,7 @@
 /* E G_c / sigma_f^2 below this many diameters: the crack is not resolved. */
 static const double least_diameters = 4;
 
-/* Components of `crack` and states of `open` (kernels/beam_softening.cl). */
+/* Components of `crack` and states of `open` (beam_softening.cl). */
 enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, LATERAL = 20, WIDTH = 21 };
 enum { WHOLE = 0, BROKEN = 3 };
 

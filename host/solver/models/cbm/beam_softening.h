@@ -1,4 +1,4 @@
-/* Beams that open against cohesion, for a fracture energy (kernels/softening.h, beam_softening.cl;
+/* Beams that open against cohesion, for a fracture energy (softening.h, beam_softening.cl;
  * docs/notebook/fracture.md "Fracture energy of beams"). All of it exists only where some bond of model cbm has a
  * fracture energy; without it every function here does nothing. */
 #ifndef BRC_SOLVER_BEAM_SOFTENING_H
@@ -30,7 +30,7 @@ brc_status brc_beam_softening_begin(brc_simulation *s, int32_t moment);
 /* After what is still chosen broke: energies are booked, and beams at the end of their cohesion broken. */
 brc_status brc_beam_softening_end(brc_simulation *s, int32_t moment);
 
-/* States of the entries, and crack (kernels/beam_softening.cl); NULL where no beam softens. */
+/* States of the entries, and crack (beam_softening.cl); NULL where no beam softens. */
 void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_buffer **crack);
 
 /* What a checkpoint keeps (state_store.h). */

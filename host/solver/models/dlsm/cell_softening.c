@@ -8,7 +8,7 @@
 /* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open
  * (docs/notebook/fracture.md). */
 static const double steepest = 0.5;
-/* Faces look at their own traction where the stress of a cell is above this share of the limit (kernels/softening.cl,
+/* Faces look at their own traction where the stress of a cell is above this share of the limit (softening.cl,
  * soft_check): the two agree within a few percent where nothing is open. */
 static const double screen = 0.7;
 /* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated
@@ -24,7 +24,7 @@ static const double retention = 0.3;
  * notches (docs/notebook/fracture.md, "Notched specimens"). */
 static const double least_cells = 4;
 
-/* Components of `crack` (kernels/softening.cl). */
+/* Components of `crack` (softening.cl). */
 enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 32 };
 enum { APART = 2 }; /* SOFT_APART, of `open` */
 

@@ -1,4 +1,4 @@
-/* Faces of cells that open against cohesion, for a fracture energy (kernels/softening.{h,cl}, docs/notebook/fracture.md
+/* Faces of cells that open against cohesion, for a fracture energy (softening.{h,cl}, docs/notebook/fracture.md
  * "Fracture energy"). All of it exists only where some bond has a fracture energy; without it every function here does
  * nothing. */
 #ifndef BRC_SOLVER_CELL_SOFTENING_H

@@ -7,7 +7,7 @@
 /* Gap and slide over the length of the bond from which on the sides of a broken face stand clear of each other. */
 static const double clear = 0.5;
 
-enum { LOAD = 12 }; /* CLOSED_LOAD of kernels/closed_faces.cl */
+enum { LOAD = 12 }; /* CLOSED_LOAD of closed_faces.cl */
 
 struct brc_closed_faces {
     brc_pass *keep, *look_pass, *follow, *press, *flux, *force, *energy, *again, *gain_pass;

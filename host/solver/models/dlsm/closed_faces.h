@@ -1,4 +1,4 @@
-/* Closed cracks of cells whose bonds break at once (kernels/closed_face.h, closed_faces.cl; docs/notebook/fracture.md
+/* Closed cracks of cells whose bonds break at once (closed_face.h, closed_faces.cl; docs/notebook/fracture.md
  * "Closed faces"): the two sides of a broken face bear on each other until they stand clear. Model dlsm, dynamic stages
  * of scenes without contact, `fracture: {closure: true}`; else, and where faces open against cohesion, every function
  * here does nothing. */

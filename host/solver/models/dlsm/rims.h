@@ -1,5 +1,5 @@
 /* dlsm: the rim of the rings around broken bonds: fluxes of ring 2 and forces of the rings 2 and 3, found from what
- * their neighbours' stresses and fluxes gained (kernels/rims.cl) in place of an evaluation of their own. The rings
+ * their neighbours' stresses and fluxes gained (rims.cl) in place of an evaluation of their own. The rings
  * within are evaluated as a whole (force.c). */
 #ifndef BRC_SOLVER_MODELS_DLSM_RIMS_H
 #define BRC_SOLVER_MODELS_DLSM_RIMS_H

@@ -1,5 +1,5 @@
 /* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of
- * kernels/published_breaks.cl. */
+ * published_breaks.cl. */
 #include "../../effects/fracture/cell_breaks_internal.h"
 #include "../../core/sym3.h"
 #include "published.h"

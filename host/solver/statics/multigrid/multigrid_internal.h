@@ -22,7 +22,7 @@ typedef struct brc_level {
 typedef struct brc_level_passes {
     brc_pass *all, *cells, *ground, *matrix, *step, *collect, *spread, *prolong, *restriction, *coarsest;
 } brc_level_passes;
-/* Vectors of a launch, as kernels/multigrid.cl calls them; right: of n_right parts, 0 none, 1 forces, 2 torques too. */
+/* Vectors of a launch, as multigrid.cl calls them; right: of n_right parts, 0 none, 1 forces, 2 torques too. */
 typedef struct brc_level_vectors {
     brc_buffer *move, *turn, *force, *torque;
     int32_t n_right;

@@ -1,4 +1,4 @@
-/* Rigid cells that are apart rest until they may have met (kernels/contact_cells.cl, contact_rests), and openings
+/* Rigid cells that are apart rest until they may have met (contact_cells.cl, contact_rests), and openings
  * follow by the pairs of the cells that open (host/solver/models/dlsm/cell_softening.c): neither changes what comes
  * out. Cells of E 1 Pa and density 1 kg/m^3 (contact_case.h). */
 #include "../../../../host/solver/effects/contact/touching.h"

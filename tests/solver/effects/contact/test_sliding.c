@@ -1,4 +1,4 @@
-/* Cells that fail in shear with a fracture energy (kernels/sliding.h, docs/notebook/theory.md T11): strength against
+/* Cells that fail in shear with a fracture energy (sliding.h, docs/notebook/theory.md T11): strength against
  * Mohr-Coulomb, what a slide costs and what it rubs off, energy and momentum. */
 #include "../fracture/cells_case.h"
 #include <math.h>

@@ -359,7 +359,7 @@ static void the_ledger_of_a_bar_closes_through_its_fracture(void **state)
 }
 
 /* Relaxed cells: the step is half as long again, and over half of the bonds go. What the ledger then lacks is Verlet's:
- * with the part of it that is booked, that of the forces (kernels/rings.cl), it closes within the bounds, and what is
+ * with the part of it that is booked, that of the forces (rings.cl), it closes within the bounds, and what is
  * left, the part of the velocities, is less than that. */
 static void what_breaks_cost_the_integrator_is_booked(void **state)
 {

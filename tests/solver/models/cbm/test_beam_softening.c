@@ -1,4 +1,4 @@
-/* Beams that soften with a fracture energy (host/solver/models/cbm/beam_softening.c, kernels/beam_softening.cl): what a
+/* Beams that soften with a fracture energy (host/solver/models/cbm/beam_softening.c, beam_softening.cl): what a
  * beam costs, force, energy and momentum. */
 #include "../../../../host/base/memory.h"
 #include "../../../../host/solver/effects/fracture/bond_area.h"

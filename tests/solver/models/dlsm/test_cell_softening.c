@@ -1,4 +1,4 @@
-/* Cells that soften with a fracture energy (host/solver/models/dlsm/cell_softening.c, kernels/softening.cl): what a
+/* Cells that soften with a fracture energy (host/solver/models/dlsm/cell_softening.c, softening.cl): what a
  * crack costs, force, energy and momentum. */
 #include "../../effects/fracture/cells_case.h"
 #include <math.h>

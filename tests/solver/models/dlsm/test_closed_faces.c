@@ -1,4 +1,4 @@
-/* Closed cracks (host/solver/models/dlsm/closed_faces.c, kernels/closed_face.h): the two sides of a brittle broken face
+/* Closed cracks (host/solver/models/dlsm/closed_faces.c, closed_face.h): the two sides of a brittle broken face
  * bear on each other: spring, force and energy, momentum, friction, step. */
 #include "../../../../host/solver/models/dlsm/closed_faces.h"
 #include "../../effects/contact/contact_case.h"

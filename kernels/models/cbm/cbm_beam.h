@@ -10,7 +10,7 @@
 #ifndef BRC_KERNELS_CBM_BEAM_H
 #define BRC_KERNELS_CBM_BEAM_H
 
-#include "quaternion.h"
+#include "../../core/quaternion.h"
 
 /* Stiffness of a beam times its length. */
 typedef struct {

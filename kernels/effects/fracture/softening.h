@@ -11,7 +11,7 @@
 #define BRC_KERNELS_SOFTENING_H
 
 #include "failure.h"
-#include "portable.h"
+#include "../../core/portable.h"
 
 #define SOFT_CUT REAL(0.01)                  /* c */
 #define SOFT_CUT_LOG REAL(4.605170185988092) /* ln(1 / c) */

@@ -1,4 +1,4 @@
-/* Beams that open against cohesion (cbm; docs/notebook/fracture.md "Fracture energy of beams", kernels/softening.h). A
+/* Beams that open against cohesion (cbm; docs/notebook/fracture.md "Fracture energy of beams", softening.h). A
  * beam that its element would lose (fracture.cl) keeps (1 - D) of its energy instead, but for what a crack leaves to it
  * (beam_carried.h), which it keeps whole; and so of its force and moments: what D takes is taken back here after the
  * elastic passes, which run over whole beams as ever. At fixed D the force is the gradient of the energy, and both ends

@@ -1,5 +1,5 @@
 /* Fracture of dlsm-published (AGH19 section 5.3): the forces with how far each element's bonds are, the bonds that
- * break, and the least squares that are left. Arrays of entries as in kernels/cells.cl, whose cells_break removes the
+ * break, and the least squares that are left. Arrays of entries as in cells.cl, whose cells_break removes the
  * bonds. */
 
 /* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; found [n_groups]: how many.

@@ -4,7 +4,7 @@
 #ifndef BRC_KERNELS_ELASTIC_SVK_H
 #define BRC_KERNELS_ELASTIC_SVK_H
 
-#include "vec.h"
+#include "../../core/vec.h"
 
 /* Green strain [-] of a displacement gradient [-]. */
 LAW lane_sym3 green_strain(lane_mat3 g, int finite)

@@ -10,7 +10,7 @@
 #ifndef BRC_KERNELS_FAILURE_H
 #define BRC_KERNELS_FAILURE_H
 
-#include "portable.h"
+#include "../../core/portable.h"
 
 #define FAILURE_TENSION 1
 #define FAILURE_COMPRESSION 2

@@ -3,7 +3,7 @@
 #ifndef BRC_KERNELS_CONTACT_LAW_H
 #define BRC_KERNELS_CONTACT_LAW_H
 
-#include "svec.h"
+#include "../../core/svec.h"
 
 /* How two materials meet. */
 typedef struct {

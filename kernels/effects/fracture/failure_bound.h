@@ -9,7 +9,7 @@
 #ifndef BRC_KERNELS_FAILURE_BOUND_H
 #define BRC_KERNELS_FAILURE_BOUND_H
 
-#include "vec.h"
+#include "../../core/vec.h"
 
 /* 1 / the smallest limits of all elements, 0 where there is none. tension, compression, shear [1/Pa]; drucker_prager,
  * slope: as failure_shear. */

@@ -1,4 +1,4 @@
-/* Faces of cells that open against cohesion (dlsm; docs/notebook/fracture.md "Fracture energy", kernels/softening.h).
+/* Faces of cells that open against cohesion (dlsm; docs/notebook/fracture.md "Fracture energy", softening.h).
  * The displacement jump J = u_j - u_i over an open face is elastic but for the opening w: every law reads J - w in
  * place of J. So the gradients of the two cells do not see the crack, A and the time step stay those of the whole body
  * while the face holds, and -dW/dw is the very force of the bond. The elastic passes run over the whole body as ever;

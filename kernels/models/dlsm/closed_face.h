@@ -10,7 +10,7 @@
 #ifndef BRC_KERNELS_CLOSED_FACE_H
 #define BRC_KERNELS_CLOSED_FACE_H
 
-#include "vec.h"
+#include "../../core/vec.h"
 
 typedef struct {
     vec3 gap;     /* g [m] */

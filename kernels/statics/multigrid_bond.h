@@ -4,7 +4,7 @@
 #ifndef BRC_KERNELS_MULTIGRID_BOND_H
 #define BRC_KERNELS_MULTIGRID_BOND_H
 
-#include "vec.h"
+#include "../core/vec.h"
 
 /* Stiffness over S/L: along and across the bond, and of the frames over L^2 [Pa]. */
 typedef struct {

@@ -3,7 +3,7 @@
 #ifndef BRC_KERNELS_DLSM_GRADIENT_H
 #define BRC_KERNELS_DLSM_GRADIENT_H
 
-#include "vec.h"
+#include "../../core/vec.h"
 
 /* a = sum_j (u_j - u_i) (x) s [m^3]; jump: u_j - u_i [m]; area: area vector s of the face, from i to j [m^2]. */
 LAW lane_mat3 dlsm_add_jump(lane_mat3 a, lane_vec3 jump, lane_vec3 area) { return lane_add_outer(a, jump, area); }

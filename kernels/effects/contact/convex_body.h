@@ -3,7 +3,7 @@
 #ifndef BRC_KERNELS_CONVEX_BODY_H
 #define BRC_KERNELS_CONVEX_BODY_H
 
-#include "portable.h"
+#include "../../core/portable.h"
 
 typedef struct {
     state x, y, z;

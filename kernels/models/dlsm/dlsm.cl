@@ -215,7 +215,7 @@ LAW lane dlsm_elastic_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(c
 
 /* What of the bonds' stabilisation energies counts with the elements [J]: half. Or, around broken bonds, all of it
  * where the neighbour is not touched, half where it is as the element, and nothing where it was so before (touched [n],
- * kernels/cells.cl): each bond of those that are touched once. */
+ * cells.cl): each bond of those that are touched once. */
 LAW lane dlsm_bonds_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
                        GATHER(coeff) gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
                        OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, int by_touch,

@@ -3,7 +3,7 @@
 #ifndef BRC_KERNELS_SLIDING_H
 #define BRC_KERNELS_SLIDING_H
 
-#include "softening.h"
+#include "../../effects/fracture/softening.h"
 
 /* What of the stress m goes on through a face beside what acts on the plane across `axis`: m (area - (area.axis) axis)
  * [N]. Over the faces of a zig-zag along that plane it sums to nothing (docs/notebook/theory.md T11). */

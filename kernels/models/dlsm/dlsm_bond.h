@@ -2,7 +2,7 @@
 #ifndef BRC_KERNELS_DLSM_BOND_H
 #define BRC_KERNELS_DLSM_BOND_H
 
-#include "vec.h"
+#include "../../core/vec.h"
 
 /* Force on element i [N]: (B_i + B_j) s + (k (1 + tau) / q) (u_j - u_i); spring: k (1 + tau) [Pa]; ratio q = L/S
  * [1/m]. */

@@ -5,7 +5,7 @@
 #ifndef BRC_KERNELS_PUBLISHED_BOND_H
 #define BRC_KERNELS_PUBLISHED_BOND_H
 
-#include "quaternion.h"
+#include "../../core/quaternion.h"
 
 /* Strain in the global frame [-] (AGH19 eq. 5-15): least squares of d_j = R_i^T (branch + jump) - branch over the
  * directions that the branches span, with the projector P on these, gives H = R^T a A^-1 + (R^T - I) P with a = sum

@@ -1,6 +1,6 @@
-/* Fracture of cells by criteria of elements, dlsm and dlsm-published: what kernels/fracture.cl asks of an element that
+/* Fracture of cells by criteria of elements, dlsm and dlsm-published: what fracture.cl asks of an element that
  * has a stress of its own in place of the virial of beams. record holds stress times twice the volume; who fails and
- * which bond it chooses is decided there; chosen bonds become marks of kernels/cells.cl. */
+ * which bond it chooses is decided there; chosen bonds become marks of cells.cl. */
 
 /* Cauchy stress [Pa] P F^T / det F with F = I + H (in a uniform state the element's own F; turning with the element in
  * any). */
