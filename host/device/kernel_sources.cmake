@@ -1,14 +1,26 @@
-# cmake -DFOLDER=kernels -DOUTPUT=file.c -DHASH=file.h -P kernel_sources.cmake: every text of the folder, by its path there, as a C string,
-# and a hash of them all, by which the program knows whether a target plug-in was built from the same kernels.
+# cmake -DFOLDER=kernels -DOUTPUT=file.c -DHASH=file.h -DLIST=file.h -P kernel_sources.cmake: every text of the folder, by its path there, as
+# a C string; a hash of them all, by which the program knows whether a target plug-in was built from the same kernels; BRC_KERNEL_LIST(X), an X
+# for the name of every KERNEL, of passes (PASS) for both.
 include(${CMAKE_CURRENT_LIST_DIR}/../../cmake/text_to_c.cmake)
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*.h ${FOLDER}/*.cl)
 list(SORT files)
 set(text "#include \"kernel_signature.h\"\nconst brc_kernel_file brc_kernel_files[] = {\n")
 set(count 0)
 set(all "")
+set(list "")
 foreach(name IN LISTS files)
     file(READ "${FOLDER}/${name}" content)
     string(APPEND all "${name}\n${content}")
+    if(name MATCHES "\\.cl$")
+        string(REGEX MATCHALL "KERNEL void[ \n]+(PASS\\()?[a-z0-9_]+" kernels "${content}")
+        foreach(kernel IN LISTS kernels)
+            string(REGEX MATCH "[a-z0-9_]+$" kernel_name "${kernel}")
+            string(APPEND list " \\\n    X(${kernel_name})")
+            if(kernel MATCHES "PASS")
+                string(APPEND list " X(${kernel_name}_listed)")
+            endif()
+        endforeach()
+    endif()
     brc_text_to_c(content "${content}")
     string(APPEND text "    {\"${name}\",\n     ${content}},\n")
     math(EXPR count "${count} + 1")
@@ -18,3 +30,4 @@ file(WRITE "${OUTPUT}" "${text}")
 string(SHA256 hash "${all}")
 string(SUBSTRING "${hash}" 0 15 hash)
 file(WRITE "${HASH}" "#define BRC_KERNEL_TEXTS_HASH 0x${hash}LL\n")
+file(WRITE "${LIST}" "#define BRC_KERNEL_LIST(X)${list}\n")

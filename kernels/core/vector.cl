@@ -46,18 +46,6 @@ KERNEL void vector_sum(int n_blocks, int n, OWN(state) x, PUT(state) partial)
     }
 }
 
-/* z = P r with a symmetric 3 x 3 block (xx yy zz yz xz xy) per element. */
-KERNEL void block_precondition(int n, OWN(state) block, OWN(state) r, PUT(state) z)
-{
-    FOR_EACH_ITEM(e, n) {
-        GLOBAL const state *p = block + (brc_size)e * 6;
-        const state x = r[(brc_size)e * 3], y = r[(brc_size)e * 3 + 1], w = r[(brc_size)e * 3 + 2];
-        z[(brc_size)e * 3] = p[0] * x + p[5] * y + p[4] * w;
-        z[(brc_size)e * 3 + 1] = p[5] * x + p[1] * y + p[3] * w;
-        z[(brc_size)e * 3 + 2] = p[4] * x + p[3] * y + p[2] * w;
-    }
-}
-
 /* v /= m, element by element: M^-1 of a force. */
 KERNEL void divide_by_mass(int n_rows, OWN(state) mass, UPDATE(state) vector)
 {

@@ -6,10 +6,10 @@
 LAW int guard_within(state x, state most) { return x < most && x > -most; }
 
 /* first[b]: the lowest row of block b with a velocity component beyond most_v [m/s], a displacement component beyond
- * most_u [m], or not finite, -1 before there was one; when[b]: the look at which it was found. turns: spins [rad/s] are
- * looked at too, finite below most_u. What was found stays. */
-KERNEL void guard_look(int n_blocks, int n, int look, state most_u, state most_v, int turns, OWN(state) displacement,
-                       OWN(state) velocity, OWN(state) spin, UPDATE(int) first, PUT(int) when)
+ * most_u [m], or not finite, -1 before there was one; when[b]: the probe at which it was found. turns: spins [rad/s]
+ * are looked at too, finite below most_u. What was found stays. */
+KERNEL void guard_probe(int n_blocks, int n, int probe, state most_u, state most_v, int turns, OWN(state) displacement,
+                        OWN(state) velocity, OWN(state) spin, UPDATE(int) first, PUT(int) when)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
@@ -26,7 +26,7 @@ KERNEL void guard_look(int n_blocks, int n, int look, state most_u, state most_v
             }
             if (found >= 0) {
                 first[b] = found;
-                when[b] = look;
+                when[b] = probe;
             }
         }
     }

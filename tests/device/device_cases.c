@@ -6,7 +6,7 @@
 #include "device_cases.h"
 #include "../skip.h"
 #include "../../host/device/device_bandwidth.h"
-#include "../../kernels/kernel_list.h"
+#include "kernel_list.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #include "../../host/base/memory.h"
 #include "../../host/device/kernel_signature.h"
 #include "../../host/device/program_source.h"
-#include "../../kernels/kernel_list.h"
+#include "kernel_list.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -12,16 +12,14 @@ PARTS = os.path.join(source, "tests", "adding")
 # New files, and (file, the line before, the new line).
 MODEL = ({"kernels/models/spring/spring.cl": "spring.cl", "host/solver/models/spring/model.c": "spring.c", "host/scene/models/spring.c": "spring_scene.c"},
          [("host/scene/models.def", "BRC_MODEL(BRC_MODEL_CBM", 'BRC_MODEL(BRC_MODEL_SPRING, "spring", spring, "central springs")'),
-          ("kernels/kernels.h", '#include "models/cbm/cbm.cl"', '#include "models/spring/spring.cl"'),
-          ("kernels/kernel_list.h", "    X(dlsm_force) ", "    X(spring_force) X(spring_energy) \\")])
+          ("kernels/kernels.h", '#include "models/cbm/cbm.cl"', '#include "models/spring/spring.cl"')])
 EFFECT = ({"kernels/effects/constant_drag.cl": "constant_drag.cl", "host/solver/effects/constant_drag.c": "constant_drag.c"},
           [("host/solver/effects/effects.def", "BRC_EFFECT(brc_mass_damping", "BRC_EFFECT(brc_constant_drag_effect)"),
            ("host/scene/scene.h", "    double mass_damping;", "    double constant_drag; /* [m/s^2] */"),
            ("host/scene/schema_stages.c", "static const brc_entry DYNAMIC[] = {",
             '    {"constant_drag", BRC_TYPE_QUANTITY, "m/s^2", NOT_NEGATIVE, FIELD(brc_stage, constant_drag), .given = "0", .sample = "1 m/s^2",\n'
             '     .meaning = "what every element loses of its speed"},'),
-           ("kernels/kernels.h", '#include "core/motion.cl"', '#include "effects/constant_drag.cl"'),
-           ("kernels/kernel_list.h", "    X(damp_mass) ", "    X(constant_drag) \\")])
+           ("kernels/kernels.h", '#include "core/motion.cl"', '#include "effects/constant_drag.cl"')])
 CUBE = """version: 1
 materials: {glass: {E: 1 GPa, nu: 0.25, density: 1000 kg/m^3}}
 model: %s

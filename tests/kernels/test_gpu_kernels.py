@@ -13,7 +13,7 @@ import gpu_kernels
 BUDGET = {
     "dlsm_gradient": (64, 48), "dlsm_stress": (96, 72), "dlsm_flux_pass": (168, 80), "dlsm_flux_linear": (128, 80), "dlsm_force": (80, 56), "advance": (32, 32),
     "published_strain_pass": (80, 64), "published_force_pass": (128, 80), "advance_rotation": (64, 64),
-    "cbm_force_pass": (128, 80), "kinetic_energy": (32, 32), "guard_look": (40, 40), "vector_sum": (32, 32),
+    "cbm_force_pass": (128, 80), "kinetic_energy": (32, 32), "guard_probe": (40, 40), "vector_sum": (32, 32),
 }
 # Kernels that keep arrays in local memory, and how many bytes at most, with what they call; every other has none.
 ARRAYS = {"contact_cells": 15104, "fracture_stress_second": 2048, "rim_flux": 272, "rim_force": 272, "contact_drift_mean": 128,

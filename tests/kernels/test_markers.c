@@ -47,7 +47,7 @@ static const storage known[] = {
     {"elastic", ELEMENT, 1},
     {"stabilisation", ELEMENT, 1},
     {"out", ELEMENT, 1},
-    {"reach", ELEMENT, 1},
+    {"bond_ratio", ELEMENT, 1},
     {"inv_shape", SLICE, 6},
     {"spanned", SLICE, 6},
     {"material", SLICE, 4},

@@ -2,7 +2,7 @@
  * code for the plug-in. The table's name and the level come from the build (../CMakeLists.txt). */
 #include "../kernel_instance.h"
 #include "../../../kernels/kernels.h"
-#include "../../../kernels/kernel_list.h"
+#include "kernel_list.h"
 
 #define BRC_ENTRY(name) {#name, (void (*)(void))name},
 static const brc_kernel_entry entries[] = {BRC_KERNEL_LIST(BRC_ENTRY)};

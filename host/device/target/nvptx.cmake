@@ -30,8 +30,8 @@ foreach(precision RANGE 2)
         set(object ${brc_nvptx_dir}/${name}.o)
         add_custom_command(OUTPUT ${object}
             COMMAND ${BRC_NVPTX_GCC} ${brc_nvptx_flags} -DBRC_TARGET -DBRC_INSTANCE=${name} -DBRC_LEVEL="nvptx" -DBRC_PRECISION=${precision}
-                    -DBRC_LANES=1 -DBRC_SLICE=32 -DBRC_MANY_MATERIALS=${many} -c ${brc_device_dir}/instance/kernels_instance.c -o ${object}
-            DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/kernel_instance.h ${brc_kernel_texts}
+                    -DBRC_LANES=1 -DBRC_SLICE=32 -DBRC_MANY_MATERIALS=${many} -I${brc_device_generated} -c ${brc_device_dir}/instance/kernels_instance.c -o ${object}
+            DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/kernel_instance.h ${brc_device_generated}/kernel_list.h ${brc_kernel_texts}
             COMMENT "Building target kernels for ${BRC_NVPTX_ARCH}, ${precision_name}, many materials ${many}" VERBATIM)
         list(APPEND brc_nvptx_objects ${object})
         string(APPEND brc_nvptx_instances " X(${name})")

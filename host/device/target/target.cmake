@@ -48,9 +48,9 @@ foreach(precision RANGE ${BRC_LAST_PRECISION})
         add_custom_command(OUTPUT ${object}
             COMMAND ${BRC_TARGET_CLANG} -std=gnu11 -fopenmp ${BRC_TARGET_ARCH} -DBRC_TARGET -DBRC_INSTANCE=${name} -DBRC_LEVEL="target"
                     -DBRC_PRECISION=${precision} -DBRC_LANES=${lanes} -DBRC_SLICE=${lanes} -DBRC_MANY_MATERIALS=${many}
-                    -E -P ${brc_device_dir}/instance/kernels_instance.c -o ${brc_target_dir}/${name}.c
+                    -I${brc_device_generated} -E -P ${brc_device_dir}/instance/kernels_instance.c -o ${brc_target_dir}/${name}.c
             COMMAND ${CMAKE_C_COMPILER_LAUNCHER} ${BRC_TARGET_CLANG} ${brc_target_flags} -c ${brc_target_dir}/${name}.c -o ${object}
-            DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/kernel_instance.h ${brc_kernel_texts}
+            DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/kernel_instance.h ${brc_device_generated}/kernel_list.h ${brc_kernel_texts}
             COMMENT "Building target kernels ${precision_name}, many materials ${many}" VERBATIM)
         list(APPEND brc_target_objects ${object})
         string(APPEND brc_target_instances " X(${name})")

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BLOCK = 1024 }; /* rows of a work-item of guard_look */
+enum { BLOCK = 1024 }; /* rows of a work-item of guard_probe */
 /* A look reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the
  * device and reading a number a block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps
  * both stay below a hundredth (docs/notebook/stability.md). */
@@ -90,7 +90,7 @@ brc_status brc_guard_begin_stage(brc_simulation *s)
                                                             .tables = {&brc_guard_fields},
                                                             BRC_VALUES(values),
                                                             .outer = &run};
-        BRC_TRY(BRC_PASSES(s, &guard, BRC_PASS(&g->look, "guard_look", "n look most_u")));
+        BRC_TRY(BRC_PASSES(s, &guard, BRC_PASS(&g->look, "guard_probe", "n probe most_u")));
         BRC_TRY(brc_upload_int(g->first, g->found, g->n_blocks));
         BRC_TRY(brc_upload_int(g->when, g->found, g->n_blocks));
         const int64_t asked = s->scene->guard.every;
@@ -109,7 +109,7 @@ static brc_status look_at_elements(brc_simulation *s)
     struct brc_guard_state *g = s->guard;
     const int64_t look = (s->step + g->look_every - 1) / g->look_every;
     return BRC_RUN(g->look, g->n_blocks, {"n", BRC_INT(s->layout->n_rows)},
-                   {"look", BRC_INT(look < INT32_MAX ? look : INT32_MAX)}, {"most_u", BRC_STATE(endless)});
+                   {"probe", BRC_INT(look < INT32_MAX ? look : INT32_MAX)}, {"most_u", BRC_STATE(endless)});
 }
 
 brc_status brc_guard_step(brc_simulation *s)

@@ -54,7 +54,7 @@ typedef struct brc_traction_load {
     int32_t load;
     int32_t n;
     double last_factor;
-    brc_buffer *element, *place, *total, *moment, *reach, *work;
+    brc_buffer *element, *place, *total, *moment, *last_path, *work;
 } brc_traction_load;
 typedef struct brc_imposed_load {
     int32_t load; /* -1: elements without bonds, held still (model.keep_isolated) */
@@ -70,7 +70,7 @@ typedef struct brc_push_load { /* dead forces on elements (element_loads.c) */
     double factor, last_factor; /* now, and at the last booking */
     int32_t *element_id;        /* [n] host */
     double *total_of;           /* [n][3] forces at factor 1 [N]; host */
-    brc_buffer *element, *total, *reach, *work;
+    brc_buffer *element, *total, *last_path, *work;
 } brc_push_load;
 typedef struct brc_turn_load { /* prescribed rotations of elements (element_loads.c) */
     int32_t load;

@@ -65,7 +65,7 @@ LAW contact_meeting contact_of_foot(convex_foot foot, svec3 branch, state ri, st
  * are spheres [m]. */
 KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_linear, int n_materials, state middle_x,
                             state middle_y, state middle_z, OWN(int) todo, OWN(int) ends, GATHER(state) place,
-                            GATHER(state) displacement, GATHER(state) orientation, GATHER(state) reach,
+                            GATHER(state) displacement, GATHER(state) orientation, GATHER(state) bounding_radius,
                             GATHER(state) corner, GATHER(state) plane, GATHER(int) loop_start, GATHER(int) loop,
                             GATHER(state) radius, GATHER(int) corner_start, GATHER(int) face_start, GATHER(int) id,
                             GATHER(state) mass, GATHER(int) material, GATHER(int) body, GATHER(int) piece_striker,
@@ -77,14 +77,14 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
         const int i = ends[2 * (brc_size)p], j = ends[2 * (brc_size)p + 1];
         GLOBAL state *restrict past = history + (brc_size)p * CONTACT_HISTORY;
         GLOBAL state *restrict out = result + (brc_size)p * (CONTACT_RESULT + 6);
-        const state ri = reach[i];
+        const state ri = bounding_radius[i];
         const smat3 turn_i = squat_matrix(squat_load(orientation, i));
         smat3 turn_j;
         contact_meeting meet;
         if (j < n) {
             /* spheres of one body that overlap in the reference do not push there */
             const svec3 far = svec3_sub(svec3_load(place, (brc_size)j * 3), svec3_load(place, (brc_size)i * 3));
-            const state rj = reach[j], reference = body[i] == body[j] ? svec3_length(far) : ri + rj;
+            const state rj = bounding_radius[j], reference = body[i] == body[j] ? svec3_length(far) : ri + rj;
             turn_j = squat_matrix(squat_load(orientation, j));
             meet = contact_of_spheres(contact_branch(place, displacement, i, j), ri, rj, reference);
         } else {
@@ -161,14 +161,14 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
 /* Elements that turn: force += sign times those of contact, torque likewise; kick: velocities lose kick f / m, spins
  * likewise (a pair that is new in the middle of a step must not act on the step that ended). book 1: what was lost in
  * the step is added up. stored [n] [J]. */
-KERNEL void contact_gather_turning(int n_busy, state sign, state kick, int book, OWN(int) busy, OWN(int) list,
-                                   OWN(int) start, OWN(int) used, OWN(int) pair, GATHER(int) touch,
+KERNEL void contact_gather_turning(int n_with_pairs, state sign, state kick, int book, OWN(int) with_pairs,
+                                   OWN(int) list, OWN(int) start, OWN(int) used, OWN(int) pair, GATHER(int) touch,
                                    GATHER(state) result, OWN(state) mass, OWN(state) inertia, UPDATE(state) force,
                                    UPDATE(state) torque, UPDATE(state) velocity, UPDATE(state) spin, PUT(state) stored,
                                    UPDATE(state) lost_friction, UPDATE(state) lost_impact)
 {
-    FOR_EACH_ITEM(item, n_busy) {
-        const int k = busy[item], e = list[k];
+    FOR_EACH_ITEM(item, n_with_pairs) {
+        const int k = with_pairs[item], e = list[k];
         svec3 push = {0, 0, 0}, turn = {0, 0, 0};
         state held = 0, rubbed = 0, damped = 0;
         for (int at = start[k]; at < start[k] + used[k]; ++at) {

@@ -195,13 +195,14 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
 
 /* dlsm: moments of touching pairs, added to the element's place in held_moment; of rigid elements the torque instead.
  * As contact_gather_turning. */
-KERNEL void contact_gather_moments(int n_busy, int book, OWN(int) busy, OWN(int) list, OWN(int) start, OWN(int) used,
-                                   OWN(int) pair, GATHER(int) touch, GATHER(state) result, OWN(int) boundary,
-                                   OWN(int) rigid, OWN(coeff) gradient, UPDATE(coeff) held_moment, UPDATE(state) turn,
-                                   PUT(state) stored, UPDATE(state) lost_friction, UPDATE(state) lost_impact)
+KERNEL void contact_gather_moments(int n_with_pairs, int book, OWN(int) with_pairs, OWN(int) list, OWN(int) start,
+                                   OWN(int) used, OWN(int) pair, GATHER(int) touch, GATHER(state) result,
+                                   OWN(int) boundary, OWN(int) rigid, OWN(coeff) gradient, UPDATE(coeff) held_moment,
+                                   UPDATE(state) turn, PUT(state) stored, UPDATE(state) lost_friction,
+                                   UPDATE(state) lost_impact)
 {
-    FOR_EACH_ITEM(item, n_busy) {
-        const int k = busy[item], e = list[k];
+    FOR_EACH_ITEM(item, n_with_pairs) {
+        const int k = with_pairs[item], e = list[k];
         smat3 sum = {0, 0, 0, 0, 0, 0, 0, 0, 0};
         state held = 0, rubbed = 0, damped = 0;
         int any = 0;
@@ -236,11 +237,11 @@ KERNEL void contact_gather_moments(int n_busy, int book, OWN(int) busy, OWN(int)
 }
 
 /* dlsm: forces of touching pairs. */
-KERNEL void contact_gather_forces(int n_busy, OWN(int) busy, OWN(int) list, OWN(int) start, OWN(int) used,
+KERNEL void contact_gather_forces(int n_with_pairs, OWN(int) with_pairs, OWN(int) list, OWN(int) start, OWN(int) used,
                                   OWN(int) pair, GATHER(int) touch, GATHER(state) result, UPDATE(state) force)
 {
-    FOR_EACH_ITEM(item, n_busy) {
-        const int k = busy[item];
+    FOR_EACH_ITEM(item, n_with_pairs) {
+        const int k = with_pairs[item];
         const brc_size to = (brc_size)list[k] * 3;
         svec3 push = {0, 0, 0};
         int any = 0;

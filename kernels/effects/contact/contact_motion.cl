@@ -22,15 +22,15 @@ LAW state contact_stretch(OWN(coeff) gradient, int e)
     return most > STATE(1) ? SQRT_STATE(most) : STATE(1);
 }
 
-/* Present positions, radii and maps of all elements. reach [n]: radius about the element's place in the reference
- * [m]. */
+/* Present positions, radii and maps of all elements. bounding_radius [n]: radius about the element's place in the
+ * reference [m]. */
 KERNEL void contact_extent(int n, int pose, OWN(state) place, OWN(state) displacement, OWN(coeff) gradient,
-                           OWN(state) orientation, OWN(state) reach, PUT(state) built, PUT(state) posed)
+                           OWN(state) orientation, OWN(state) bounding_radius, PUT(state) built, PUT(state) posed)
 {
     FOR_EACH_ITEM(e, n) {
         for (int c = 0; c < 3; ++c)
             built[(brc_size)e * 4 + c] = place[(brc_size)e * 3 + c] + displacement[(brc_size)e * 3 + c];
-        built[(brc_size)e * 4 + 3] = pose == 1 ? reach[e] * contact_stretch(gradient, e) : reach[e];
+        built[(brc_size)e * 4 + 3] = pose == 1 ? bounding_radius[e] * contact_stretch(gradient, e) : bounding_radius[e];
         if (pose != 0) smat3_store(posed, (brc_size)e * 9, contact_map(pose == 1, gradient, orientation, e));
     }
 }
@@ -105,12 +105,13 @@ KERNEL void contact_drift_mean(int n_items, int n_blocks, OWN(state) part, SCATT
 /* Of each block of elements, of the exposed ones, the largest: way of any of its points since the list was made, drift
  * taken off [m]; its speed, and the acceleration squared; way of any of its points less `clear` [m]; speed and
  * acceleration squared. spin: of elements that stand by their rotation. Points of a cell turn and strain with it: the
- * way of its place and reach times the change of its map; their speeds are taken as twice that of the place where the
- * map follows the neighbours (pose 1). moved [n_blocks][CONTACT_MOVED]. */
+ * way of its place and bounding_radius times the change of its map; their speeds are taken as twice that of the place
+ * where the map follows the neighbours (pose 1). moved [n_blocks][CONTACT_MOVED]. */
 KERNEL void contact_moved(int n_blocks, int n, int pose, OWN(int) exposed, OWN(int) rigid, OWN(state) place,
-                          OWN(state) displacement, OWN(coeff) gradient, OWN(state) orientation, OWN(state) reach,
-                          OWN(state) built, OWN(state) posed, OWN(state) clear, OWN(state) velocity, OWN(state) spin,
-                          OWN(state) force, OWN(state) mass, GATHER(state) drift, PUT(state) moved)
+                          OWN(state) displacement, OWN(coeff) gradient, OWN(state) orientation,
+                          OWN(state) bounding_radius, OWN(state) built, OWN(state) posed, OWN(state) clear,
+                          OWN(state) velocity, OWN(state) spin, OWN(state) force, OWN(state) mass, GATHER(state) drift,
+                          PUT(state) moved)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
@@ -129,11 +130,11 @@ KERNEL void contact_moved(int n_blocks, int n, int pose, OWN(int) exposed, OWN(i
                     const smat3 off = smat3_add(contact_map(pose == 1, gradient, orientation, e),
                                                 smat3_scale(STATE(-1), smat3_load(posed, (brc_size)e * 9)));
                     const smat3 square = smat3_mul(smat3_transpose(off), off);
-                    turned = reach[e] * SQRT_STATE(square.xx + square.yy + square.zz);
+                    turned = bounding_radius[e] * SQRT_STATE(square.xx + square.yy + square.zz);
                     if (pose == 1)
                         follows = STATE(2);
                     else
-                        turning = reach[e] * svec3_length(svec3_load(spin, (brc_size)e * 3));
+                        turning = bounding_radius[e] * svec3_length(svec3_load(spin, (brc_size)e * 3));
                 }
                 const svec3 off = svec3_sub(svec3_sub(d, way), svec3_scale(drift[12], arm)),
                             apart = svec3_sub(svec3_sub(v, speed), svec3_scale(drift[13], arm));

@@ -1,7 +1,8 @@
 /* Cells of dlsm that have lost all their bonds: rigid bodies about their places, where their mass is. momentum: of
  * turning [n][3]; turned: quaternions since the reference [n][4]; inertia: of the polyhedron about its mass centre xx
  * yy zz yz xz xy [n][6]; rigid [n]: 1, else 0; way [n]: the sum over the steps of how far turning can have moved any
- * point of the cell, no less [m] (contact_rests). reach [n]: radius about the place that holds the cell [m]. */
+ * point of the cell, no less [m] (contact_rests). bounding_radius [n]: radius about the place that holds the cell [m].
+ */
 
 /* The rotation nearest to I + H, by Newton's iteration R <- (R + R^-T) / 2; unity where there is none. */
 LAW smat3 contact_polar(smat3 f)
@@ -95,7 +96,7 @@ LAW state contact_chord(squat from, squat to)
 /* momentum += kick torque, then free turning for drift with what extra torque adds (rigid_drift, for W cells side by
  * side; cells that are not rigid take part and keep what they have). */
 KERNEL void contact_turn(int n_groups, state kick, state drift, state extra, OWN(int) rigid, OWN(state) inertia,
-                         OWN(state) torque, OWN(state) reach, UPDATE(state) momentum, UPDATE(state) turned,
+                         OWN(state) torque, OWN(state) bounding_radius, UPDATE(state) momentum, UPDATE(state) turned,
                          UPDATE(state) way)
 {
     FOR_EACH_ITEM(group, n_groups) {
@@ -153,7 +154,7 @@ KERNEL void contact_turn(int n_groups, state kick, state drift, state extra, OWN
                 const brc_size e = begin + l;
                 GLOBAL state *restrict to = turned + e * 4;
                 if (rigid[e]) {
-                    way[e] += reach[e] * chord[l] +
+                    way[e] += bounding_radius[e] * chord[l] +
                               STATE(2) * STATE_ROUNDING * way[e]; /* and no less for the rounding of the sum */
                     to[0] = real[l], to[1] = imaginary.x[l], to[2] = imaginary.y[l], to[3] = imaginary.z[l];
                 }

@@ -3,8 +3,8 @@
  * holds every pair that can touch. Positions are relative to the middle of the domain. Of the lists: list [m]: rows of
  * the exposed elements, ascending; slot_of [n + 1]: place of a row in it (of an exposed row; else that of the next
  * one); start [m + 1], used [m]: entries of each; entry: the other row, by ascending id, and n + piece of a striker;
- * pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen from the higher one; busy: those slots of
- * list that have entries at all. */
+ * pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen from the higher one; with_pairs: those
+ * slots of list that have entries at all. */
 
 #define CONTACT_HISTORY 20
 
@@ -291,10 +291,10 @@ KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_e
 }
 
 /* Slots with entries; at [m + 1]: running sums of any. */
-KERNEL void contact_busy(int m, OWN(int) any, OWN(int) at, SCATTER(int) busy)
+KERNEL void contact_with_pairs(int m, OWN(int) any, OWN(int) at, SCATTER(int) with_pairs)
 {
     FOR_EACH_ITEM(k, m) {
-        if (any[k]) busy[at[k]] = k;
+        if (any[k]) with_pairs[at[k]] = k;
     }
 }
 

@@ -15,38 +15,12 @@ LAW lane_sym3 cells_cauchy(lane_mat3 gradient, lane_mat3 stress)
 }
 
 /* The record of a group of elements of this stress [Pa]. */
-LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, UPDATE(coeff) record, PUT(coeff) reach)
+LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, UPDATE(coeff) record,
+                          PUT(coeff) stress_bound)
 {
     const lane volume = lane_block(record, SLICE_OF(group), RECORD, 6, FIRST_LANE_OF(group));
     const lane_sym3 virial = lane_sym3_scale_shift(volume, stress, LANE_ZERO);
-    fracture_put_record(group, virial, scale, record, reach);
-}
-
-/* Records of dlsm, of H and P as they stand. */
-KERNEL void cells_record(int n_groups, OWN(coeff) gradient, OWN(coeff) stress, coeff inv_tension, coeff inv_compression,
-                         coeff inv_shear, int drucker_prager, coeff slope, UPDATE(coeff) record, PUT(coeff) reach)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
-        const lane_int own = lane_own(group * W);
-        const lane_sym3 cauchy = cells_cauchy(lane_gather9(gradient, own), lane_gather9(stress, own));
-        cells_put_record(group, cauchy, scale, record, reach);
-    }
-}
-
-/* Records of dlsm-published, of the strains [n][6] as they stand, in the global frame. */
-KERNEL void cells_record_published(int n_groups, OWN(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                   OWN(coeff) lame_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
-                                   int drucker_prager, coeff slope, UPDATE(coeff) record, PUT(coeff) reach)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
-        const lane_int own = lane_own(group * W);
-        const published_moduli m = published_moduli_of(own, own, lambda_one, mu_one, young_one, lame_of);
-        const lane_sym3 e = lane_gather6(strain, own);
-        const lane_sym3 hooke = lane_sym3_scale_shift(REAL(2) * m.mu, e, m.lambda * lane_sym3_trace(e));
-        cells_put_record(group, hooke, scale, record, reach);
-    }
+    fracture_put_record(group, virial, scale, record, stress_bound);
 }
 
 /* The bonds that elements chose are marked; stress [n]: of the element that chose [Pa]; found [n]: 1 where one did. */

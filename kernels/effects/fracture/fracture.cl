@@ -6,18 +6,20 @@
  * know nothing. record [slice][8][C]: sum over the beams of an element of the symmetric part of x_ij (x) f_ij, xx yy zz
  * yz xz xy [J]; twice its volume with its share of the voids [m^3]; one over that. choice [n]: 4 * (row of the
  * neighbour that loses the bond) + mode of failure, or -1. mark [n / W]: the last step in which a bond of the group was
- * chosen; the host counts steps from 1. reach [n]: upper bound of the element's own ratio of failure by the smallest
- * limits of all, times record's volume [m^3] (failure_bound.h). weight [n]: volume of record over the element and its
- * neighbours [m^3]; ease [n]: how much farther than the smallest its own limits are, times its weakest factor, a little
- * less [-]. While the sum of reach over the members is below ease times weight the element cannot fail. factor
- * [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element; only read if weighted. */
+ * chosen; the host counts steps from 1. stress_bound [n]: upper bound of the element's own ratio of failure by the
+ * smallest limits of all, times record's volume [m^3] (failure_bound.h). weight [n]: volume of record over the element
+ * and its neighbours [m^3]; limit_margin [n]: how much farther than the smallest its own limits are, times its weakest
+ * factor, a little less [-]. While the sum of stress_bound over the members is below limit_margin times weight the
+ * element cannot fail. factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element;
+ * only read if weighted. */
 
 #define RECORD 8
 /* Component 0 of a row or of a lane of rows; the next are C further on. */
 #define RECORD_OF(row) ((row) / C * (RECORD * C) + (row) % C)
 
 /* A group's sums of x (x) f, and how near to failure they are. */
-LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, UPDATE(coeff) record, PUT(coeff) reach)
+LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, UPDATE(coeff) record,
+                             PUT(coeff) stress_bound)
 {
     const brc_size to = (brc_size)SLICE_OF(group) * RECORD * C + (brc_size)FIRST_LANE_OF(group);
     lane_store(record, to, virial.xx);
@@ -30,36 +32,7 @@ LAW void fracture_put_record(int group, lane_sym3 virial, failure_scale scale, U
     const lane_sym3 stress = {inverse * virial.xx, inverse * virial.yy, inverse * virial.zz,
                               inverse * virial.yz, inverse * virial.xz, inverse * virial.xy};
     const lane bound = volume * failure_bound(stress, scale);
-    lane_store(reach, (brc_size)(group * W), bound);
-}
-
-/* As cbm_force_pass with the full law, and the records. */
-KERNEL void fracture_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
-                           OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
-                           coeff bend, coeff twist, GATHER(coeff) beam_of, coeff inv_tension, coeff inv_compression,
-                           coeff inv_shear, int drucker_prager, coeff slope, PUT(state) force, PUT(state) torque,
-                           UPDATE(coeff) record, PUT(coeff) reach)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
-        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
-        const lane zero = LANE_ZERO;
-        cbm_end sum = {{zero, zero, zero}, {zero, zero, zero}};
-        lane_sym3 virial = {zero, zero, zero, zero, zero, zero};
-        for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
-                                              orientation, axial, bend, twist, beam_of, 1);
-            const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
-            sum.force = lane_vec3_add(sum.force, end.force);
-            sum.torque = lane_vec3_add(sum.torque, end.torque);
-            virial = cbm_add_virial(virial, bond.branch, end.force);
-        }
-        virial = cbm_virial_of(virial);
-        state_store3(force, group * W, sum.force);
-        state_store3(torque, group * W, sum.torque);
-        const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
-        fracture_put_record(group, virial, scale, record, reach);
-    }
+    lane_store(stress_bound, (brc_size)(group * W), bound);
 }
 
 /* Mean stress of a group's elements over themselves (level 0) or with their neighbours over unbroken bonds (level
@@ -252,16 +225,16 @@ LAW failure_stress fracture_mean_of(int e, int level, GATHER(int) row_start, GAT
 KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager, coeff slope, coeff friction,
                            int weighted, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
                            GATHER(state) displacement, OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest,
-                           GATHER(coeff) record, GATHER(coeff) reach, OWN(coeff) ease, OWN(coeff) weight,
+                           GATHER(coeff) record, GATHER(coeff) stress_bound, OWN(coeff) limit_margin, OWN(coeff) weight,
                            PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
-        lane sum = lane_load(reach, (brc_size)first);
+        lane sum = lane_load(stress_bound, (brc_size)first);
         for (int slot = row_start[slice]; level > 0 && slot < last;
              ++slot) /* what points home adds the element's own: it is no less a bound */
-            sum += gather_component(reach, int_block(neighbour, slot, lane0));
-        const lane room = lane_load(ease, (brc_size)first) * lane_load(weight, (brc_size)first) - sum;
+            sum += gather_component(stress_bound, int_block(neighbour, slot, lane0));
+        const lane room = lane_load(limit_margin, (brc_size)first) * lane_load(weight, (brc_size)first) - sum;
         const failure_shear shear = {drucker_prager, slope, friction};
         int look[W], any = 0;
 #define LOOK(l) look[0x##l] = !(LANE_ITEM(room, l) > 0), any |= look[0x##l];

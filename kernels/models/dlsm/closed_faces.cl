@@ -8,7 +8,7 @@
  * along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
  * Elements [n]: next: the step at which some face of which it is the lower row must be looked at again; presses: 1
  * where some face is pressed, as of the last evaluation; load [n][12]: what these add to B, and their force on it [Pa]
- * [N]; held: what they hold, half of each face [J]; rubbed: lost to friction [J]; look, near: the last step whose
+ * [N]; held: what they hold, half of each face [J]; rubbed: lost to friction [J]; probe, near: the last step whose
  * breaks concern the element's faces, or its force. */
 
 #define CLOSED_OPEN 1
@@ -83,8 +83,8 @@ KERNEL void closed_keep(int n_groups, OWN(int) row_start, OWN(int) neighbour, OW
 }
 
 /* After bonds broke: whose faces they concern. */
-KERNEL void closed_look(int n_groups, int moment, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin,
-                        OWN(int) touched, OWN(int) closed, SCATTER(int) look)
+KERNEL void closed_probe(int n_groups, int moment, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin,
+                         OWN(int) touched, OWN(int) closed, SCATTER(int) probe)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -92,9 +92,9 @@ KERNEL void closed_look(int n_groups, int moment, OWN(int) row_start, GATHER(int
             for (int slot = row_start[e / C]; touched[e] && slot < row_start[e / C + 1]; ++slot) {
                 const brc_size entry = CLOSED_ENTRY;
                 if (!CLOSED_HOLDS(entry)) continue;
-                STORE_SAME(look + CLOSED_OTHER(entry), moment);
+                STORE_SAME(probe + CLOSED_OTHER(entry), moment);
             }
-            if (touched[e]) STORE_SAME(look + e, moment);
+            if (touched[e]) STORE_SAME(probe + e, moment);
         }
     }
 }
@@ -257,14 +257,14 @@ LAW int closed_end(int item, int listed, OWN(int) list, OWN(int) presses)
 /* Of all groups, or of the n elements of a list: loads go into B. fluxes above 0: and into what B gained, whose records
  * begin there (rims.cl). */
 KERNEL void closed_flux(int n, int listed, OWN(int) list, int fluxes, OWN(int) level, OWN(int) presses, OWN(coeff) load,
-                        UPDATE(coeff) flux, SCATTER(coeff) gain)
+                        UPDATE(coeff) flux, SCATTER(coeff) delta)
 {
     FOR_EACH_ITEM(item, n) {
         for (int e = closed_begin(item, listed, list); e < closed_end(item, listed, list, presses); ++e) {
             for (int c = 0; presses[e] && c < 9; ++c) {
                 const coeff more = load[(brc_size)e * CLOSED_LOAD + (brc_size)c];
                 flux[(brc_size)e * 9 + (brc_size)c] += more;
-                if (fluxes > 0) gain[((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9 + (brc_size)c] += more;
+                if (fluxes > 0) delta[((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9 + (brc_size)c] += more;
             }
         }
     }
@@ -288,20 +288,20 @@ KERNEL void closed_energy(int n, OWN(int) presses, OWN(state) held, PUT(state) o
 
 /* ---- after bonds broke: the forces of the rings around them are there, with the loads of before ---- */
 
-/* Loads of the elements that the breaks concern, with their new H; gain [n][12]: what these gained. All their faces are
- * looked at in the next step. */
+/* Loads of the elements that the breaks concern, with their new H; delta [n][12]: what these gained. All their faces
+ * are looked at in the next step. */
 KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) touched, OWN(int) row_start,
                          GATHER(int) neighbour, OWN(int) twin, GATHER(state) place, OWN(coeff) offset,
                          GATHER(coeff) inv_shape, GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) spring,
-                         UPDATE(coeff) overlap, UPDATE(int) closed, UPDATE(coeff) slide, OWN(int) look,
+                         UPDATE(coeff) overlap, UPDATE(int) closed, UPDATE(coeff) slide, OWN(int) probe,
                          SCATTER(int) near, PUT(int) next, UPDATE(int) presses, UPDATE(coeff) load, PUT(state) held,
-                         PUT(coeff) gain)
+                         PUT(coeff) delta)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int fresh =
-            ~LANE_ABOVE(moment, int_load(look, (brc_size)group * W)); /* none is above the present moment */
+            ~LANE_ABOVE(moment, int_load(probe, (brc_size)group * W)); /* none is above the present moment */
         for (int e = group * W; LANE_ANY(fresh) && e < group * W + W; ++e) {
-            if (look[e] != moment) continue;
+            if (probe[e] != moment) continue;
             coeff sum[CLOSED_LOAD];
             state energy;
             const int before = presses[e];
@@ -309,7 +309,7 @@ KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) t
                                        spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) {
                 const brc_size at = (brc_size)e * CLOSED_LOAD + (brc_size)c;
-                gain[at] = sum[c] - (before ? load[at] : 0);
+                delta[at] = sum[c] - (before ? load[at] : 0);
                 load[at] = sum[c];
             }
             held[e] = energy;
@@ -325,21 +325,21 @@ KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) t
 
 /* Forces gain what the loads of their elements and of those around them gained, and velocities half_kick over mass
  * times what forces lose (ring_take). */
-KERNEL void closed_gain(int n_groups, int moment, state half_kick, OWN(int) row_start, OWN(int) neighbour,
-                        OWN(coeff) area, GATHER(int) look, OWN(int) near, GATHER(coeff) gain, OWN(state) mass,
-                        UPDATE(state) force, UPDATE(state) velocity)
+KERNEL void closed_delta(int n_groups, int moment, state half_kick, OWN(int) row_start, OWN(int) neighbour,
+                         OWN(coeff) area, GATHER(int) probe, OWN(int) near, GATHER(coeff) delta, OWN(state) mass,
+                         UPDATE(state) force, UPDATE(state) velocity)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int fresh = ~LANE_ABOVE(moment, int_load(near, (brc_size)group * W));
         for (int e = group * W; LANE_ANY(fresh) && e < group * W + W; ++e) {
             if (near[e] != moment) continue;
-            const int own = look[e] == moment;
-            GLOBAL const coeff *a = gain + (brc_size)e * CLOSED_LOAD;
+            const int own = probe[e] == moment;
+            GLOBAL const coeff *a = delta + (brc_size)e * CLOSED_LOAD;
             coeff f[3] = {own ? a[9] : 0, own ? a[10] : 0, own ? a[11] : 0};
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
                 const brc_size entry = CLOSED_ENTRY;
-                const int j = neighbour[entry], other = look[j] == moment;
-                GLOBAL const coeff *b = gain + (brc_size)j * CLOSED_LOAD;
+                const int j = neighbour[entry], other = probe[j] == moment;
+                GLOBAL const coeff *b = delta + (brc_size)j * CLOSED_LOAD;
                 const vec3 s = closed_row(area, entry);
                 for (int c = 0; c < 3; ++c) {
                     if (own) f[c] += a[3 * c] * s.x + a[3 * c + 1] * s.y + a[3 * c + 2] * s.z;

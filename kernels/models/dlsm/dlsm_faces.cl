@@ -130,10 +130,11 @@ KERNEL void traction_moment_pass(int n, coeff factor, OWN(int) place, OWN(coeff)
     }
 }
 
-/* f_i += factor total; total.u + moment:H is what the traction works on [J]. book, reach: as book and last above. */
+/* f_i += factor total; total.u + moment:H is what the traction works on [J]. book, last_path: as book and last above.
+ */
 KERNEL void traction_force_pass(int n, state factor, OWN(int) element, OWN(coeff) total, OWN(coeff) moment,
                                 OWN(state) displacement, OWN(coeff) gradient, int book, state last_factor,
-                                UPDATE(state) force, UPDATE(state) reach, UPDATE(state) work)
+                                UPDATE(state) force, UPDATE(state) last_path, UPDATE(state) work)
 {
     FOR_EACH_ITEM(i, n) {
         const int e = element[i];
@@ -144,8 +145,8 @@ KERNEL void traction_force_pass(int n, state factor, OWN(int) element, OWN(coeff
             sum += t * displacement[(brc_size)e * 3 + c];
         }
         for (int c = 0; c < 9; ++c) sum += (state)(moment[(brc_size)i * 9 + c] * gradient[(brc_size)e * 9 + c]);
-        if (book == 1) work[i] += STATE(0.5) * (factor + last_factor) * (sum - reach[i]);
-        if (book) reach[i] = sum;
+        if (book == 1) work[i] += STATE(0.5) * (factor + last_factor) * (sum - last_path[i]);
+        if (book) last_path[i] = sum;
     }
 }
 

@@ -4,27 +4,27 @@
  * force, in the order of its row. The rings within, 0 and 1, are evaluated as a whole (dlsm.cl). Only for rings without
  * surfaces that touch or soften.
  *
- * level [n]: ring and place of the elements of the list (rings.cl). gain [record][9]: P less that of before [Pa] of the
- * rings 0 and 1, record 1 + place; from record `fluxes` on B less that of before [Pa] of the rings 0 to 2, record
+ * level [n]: ring and place of the elements of the list (rings.cl). delta [record][9]: P less that of before [Pa] of
+ * the rings 0 and 1, record 1 + place; from record `fluxes` on B less that of before [Pa] of the rings 0 to 2, record
  * fluxes + 1 + place. The records 0 and fluxes are those of all others: 0. */
 
-/* Stored as what the elements gained, behind record `first`, which is that of all others. */
-LAW void rim_gained(members who, int item, int first, GATHER(int) level, lane_mat3 gained, SCATTER(coeff) gain)
+/* Stored as what the elements change, behind record `first`, which is that of all others. */
+LAW void rim_changed(members who, int item, int first, GATHER(int) level, lane_mat3 change, SCATTER(coeff) delta)
 {
 #define OF(l) (first + RING_PLACE(level[LANE_ITEM(who.own, l)]))
     who.own = LANE_MAKE(lane_int, OF);
 #undef OF
-    members_store9(who, gain, gained);
-    for (int c = 0; item == 0 && c < 9; ++c) gain[(brc_size)first * 9 + (brc_size)c] = 0;
+    members_store9(who, delta, change);
+    for (int c = 0; item == 0 && c < 9; ++c) delta[(brc_size)first * 9 + (brc_size)c] = 0;
 }
 
 /* As dlsm_stress of the elements of a list, and their V psi [J] from the same strain: what they hold after bonds broke.
- * gains: 1 where gain is wanted. */
+ * deltas: 1 where delta is wanted. */
 KERNEL void rim_stress(int n_items, int n, OWN(int) list, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
                        OWN(coeff) offset, GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
                        OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one, OWN(coeff) material,
-                       int finite, UPDATE(coeff) stress, PUT(state) elastic, int gains, GATHER(int) level,
-                       SCATTER(coeff) gain)
+                       int finite, UPDATE(coeff) stress, PUT(state) elastic, int deltas, GATHER(int) level,
+                       SCATTER(coeff) delta)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
@@ -32,7 +32,7 @@ KERNEL void rim_stress(int n_items, int n, OWN(int) list, OWN(int) row_start, OW
                                                 held_gradient, face_loads);
         const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
         const lane_mat3 p = finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0);
-        if (gains) rim_gained(who, item, 0, level, lane_mat3_sub(p, lane_gather9(stress, who.own)), gain);
+        if (deltas) rim_changed(who, item, 0, level, lane_mat3_sub(p, lane_gather9(stress, who.own)), delta);
         members_store9(who, stress, p);
         members_store1(who, elastic, dlsm_elastic_energy(who, g, lambda, mu, finite, inv_volume));
     }
@@ -45,14 +45,14 @@ KERNEL void rim_inner_flux(int n_items, int n, OWN(int) list, OWN(int) row_start
                            OWN(coeff) held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
                            coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
                            int finite, UPDATE(coeff) flux, PUT(coeff) bond_part, int fluxes, GATHER(int) level,
-                           SCATTER(coeff) gain)
+                           SCATTER(coeff) delta)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
         const lane_mat3 b = dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
                                          inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta,
                                          one_plus_tau, material, modulus, ell_of, finite, bond_part);
-        rim_gained(who, item, fluxes, level, lane_mat3_sub(b, lane_gather9(flux, who.own)), gain);
+        rim_changed(who, item, fluxes, level, lane_mat3_sub(b, lane_gather9(flux, who.own)), delta);
         members_store9(who, flux, b);
     }
 }
@@ -89,11 +89,11 @@ LAW void rim_ask(const rim_bonds *bonds, int e, OWN(coeff) p)
     }
 }
 
-/* B of ring 2, list: that of the rings 0 to 2. It gains -(1/2) sum (P_j s) (x) d A^-1 of what its neighbours' P gained
- * (dlsm_flux.h). A work-item looks for the bonds of W elements before it sums them up, so that their faces are under
- * way together. */
+/* B of ring 2, list: that of the rings 0 to 2. To it comes -(1/2) sum (P_j s) (x) d A^-1 of what its neighbours' P
+ * gained (dlsm_flux.h). A work-item looks for the bonds of W elements before it sums them up, so that their faces are
+ * under way together. */
 KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row_start, OWN(int) neighbour,
-                     OWN(coeff) area, OWN(coeff) offset, OWN(coeff) inv_shape, GATHER(int) level, SCATTER(coeff) gain,
+                     OWN(coeff) area, OWN(coeff) offset, OWN(coeff) inv_shape, GATHER(int) level, SCATTER(coeff) delta,
                      UPDATE(coeff) flux)
 {
     FOR_EACH_ITEM(item, n_items) {
@@ -115,7 +115,7 @@ KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row
                 if (first > row_start[e / C]) rim_select(own, e, first, end, 0, 1, neighbour, level);
                 for (int m = 0; m < own->n; ++m) {
                     const brc_size at = (brc_size)own->slot[m] * 3 * C + e % C;
-                    GLOBAL const coeff *p = gain + (brc_size)own->record[m] * 9;
+                    GLOBAL const coeff *p = delta + (brc_size)own->record[m] * 9;
                     const coeff x = area[at], y = area[at + C], z = area[at + 2 * C];
                     for (int c = 0; c < 3; ++c) {
                         const coeff pull = p[3 * c] * x + p[3 * c + 1] * y + p[3 * c + 2] * z;
@@ -125,13 +125,13 @@ KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row
                 }
             }
             GLOBAL const coeff *a = inv_shape + (brc_size)(e / C) * 6 * C + e % C; /* xx, yy, zz, yz, xz, xy */
-            GLOBAL coeff *gained = gain + ((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9;
+            GLOBAL coeff *change = delta + ((brc_size)fluxes + (brc_size)RING_PLACE(level[e])) * 9;
             const coeff inverse[9] = {a[0], a[5 * C], a[4 * C], a[5 * C], a[C], a[3 * C], a[4 * C], a[3 * C], a[2 * C]};
             for (int c = 0; c < 9; ++c) {
                 const coeff *row = q + c / 3 * 3;
-                gained[c] =
+                change[c] =
                     REAL(-0.5) * (row[0] * inverse[c % 3] + row[1] * inverse[3 + c % 3] + row[2] * inverse[6 + c % 3]);
-                flux[(brc_size)e * 9 + (brc_size)c] += gained[c];
+                flux[(brc_size)e * 9 + (brc_size)c] += change[c];
             }
         }
     }
@@ -140,7 +140,7 @@ KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row
 /* Force of the rings 2 and 3, list: that of the rings 0 to 3. That of before and sum (B_i + B_j) s of what both gained
  * (dlsm_bond.h), taken over as ring_replace does. */
 KERNEL void rim_force(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row_start, OWN(int) neighbour,
-                      OWN(coeff) area, GATHER(int) level, GATHER(coeff) gain, state half_kick, OWN(state) mass,
+                      OWN(coeff) area, GATHER(int) level, GATHER(coeff) delta, state half_kick, OWN(state) mass,
                       UPDATE(state) force, UPDATE(state) velocity, PUT(state) fresh)
 {
     FOR_EACH_ITEM(item, n_items) {
@@ -163,13 +163,13 @@ KERNEL void rim_force(int n_items, int n, OWN(int) list, int fluxes, OWN(int) ro
                     rim_select(own, e, first, end, RING_PLACE(known) > 0, 0, neighbour, level);
                 for (int m = 0; m < own->n; ++m) {
                     const brc_size at = (brc_size)own->slot[m] * 3 * C + e % C;
-                    GLOBAL const coeff *b = gain + ((brc_size)fluxes + (brc_size)own->record[m]) * 9;
+                    GLOBAL const coeff *b = delta + ((brc_size)fluxes + (brc_size)own->record[m]) * 9;
                     const coeff x = area[at], y = area[at + C], z = area[at + 2 * C];
                     for (int c = 0; c < 3; ++c) f[c] += b[3 * c] * x + b[3 * c + 1] * y + b[3 * c + 2] * z;
                     total[0] += x, total[1] += y, total[2] += z;
                 }
             }
-            GLOBAL const coeff *b = gain + ((brc_size)fluxes + (brc_size)RING_PLACE(known)) * 9;
+            GLOBAL const coeff *b = delta + ((brc_size)fluxes + (brc_size)RING_PLACE(known)) * 9;
             const state per_mass = STATE(1) / mass[e];
             for (int c = 0; c < 3; ++c) {
                 const brc_size at = (brc_size)e * 3 + (brc_size)c;

@@ -136,10 +136,10 @@ LAW void published_turn(OWN(state) orientation, int e, int finite, state out[9])
 
 /* Dead tractions of one load on cells that turn: total [N] = sum t S, moment [N m] = sum t S (x) (C - X), at unit
  * factor. f_i += factor total, torque_i += what it turns the cell by, at the arms R (C - X) (small rotations: C - X).
- * total.u + moment:(R - I) is what the traction works on [J]. book, reach: as in traction_force_pass. */
+ * total.u + moment:(R - I) is what the traction works on [J]. book, last_path: as in traction_force_pass. */
 KERNEL void traction_turned_pass(int n, state factor, OWN(int) element, OWN(coeff) total, OWN(coeff) moment,
                                  OWN(state) displacement, OWN(state) orientation, int finite, int book,
-                                 state last_factor, UPDATE(state) force, UPDATE(state) torque, UPDATE(state) reach,
+                                 state last_factor, UPDATE(state) force, UPDATE(state) torque, UPDATE(state) last_path,
                                  UPDATE(state) work)
 {
     FOR_EACH_ITEM(i, n) {
@@ -160,7 +160,7 @@ KERNEL void traction_turned_pass(int n, state factor, OWN(int) element, OWN(coef
         torque[(brc_size)e * 3] += factor * (arm[7] - arm[5]);
         torque[(brc_size)e * 3 + 1] += factor * (arm[2] - arm[6]);
         torque[(brc_size)e * 3 + 2] += factor * (arm[3] - arm[1]);
-        if (book == 1) work[i] += STATE(0.5) * (factor + last_factor) * (sum - reach[i]);
-        if (book) reach[i] = sum;
+        if (book == 1) work[i] += STATE(0.5) * (factor + last_factor) * (sum - last_path[i]);
+        if (book) last_path[i] = sum;
     }
 }

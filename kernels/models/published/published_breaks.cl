@@ -8,12 +8,13 @@ KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(i
                             OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
                             GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
                             coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit,
-                            OWN(coeff) reach, PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched, PUT(state) found)
+                            OWN(coeff) bond_ratio, PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched,
+                            PUT(state) found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
         int look = 0, marked = 0;
-        for (int l = 0; l < W; ++l) look |= !(reach[group * W + l] < REAL(0.99999) * share);
+        for (int l = 0; l < W; ++l) look |= !(bond_ratio[group * W + l] < REAL(0.99999) * share);
         if (look) {
             const members who = members_of_group(group, row_start);
             const published_own own = published_own_of(who.own, displacement, orientation, strain);
@@ -67,5 +68,20 @@ KERNEL void published_rebuild(int n, int area_weights, OWN(int) row_start, OWN(c
             cells_put(spanned, e, projector);
             cells_put(inv_shape, e, inverse);
         }
+    }
+}
+
+/* Records of dlsm-published, of the strains [n][6] as they stand, in the global frame. */
+KERNEL void cells_record_published(int n_groups, OWN(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
+                                   OWN(coeff) lame_of, coeff inv_tension, coeff inv_compression, coeff inv_shear,
+                                   int drucker_prager, coeff slope, UPDATE(coeff) record, PUT(coeff) stress_bound)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
+        const lane_int own = lane_own(group * W);
+        const published_moduli m = published_moduli_of(own, own, lambda_one, mu_one, young_one, lame_of);
+        const lane_sym3 e = lane_gather6(strain, own);
+        const lane_sym3 hooke = lane_sym3_scale_shift(REAL(2) * m.mu, e, m.lambda * lane_sym3_trace(e));
+        cells_put_record(group, hooke, scale, record, stress_bound);
     }
 }

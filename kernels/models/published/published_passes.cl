@@ -42,13 +42,14 @@ KERNEL void PASS(published_force_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) 
     }
 }
 
-/* As published_force_pass with the full law; reach [n]: the largest normal stress over limit of each element's bonds
+/* As published_force_pass with the full law; bond_ratio [n]: the largest normal stress over limit of each element's
+ * bonds
  * [-]. */
 KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
                                            OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
                                            GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
                                            coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit,
-                                           PUT(state) force, PUT(state) torque, PUT(coeff) reach)
+                                           PUT(state) force, PUT(state) torque, PUT(coeff) bond_ratio)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
@@ -66,7 +67,7 @@ KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(i
         }
         members_store3(who, force, f);
         members_store3(who, torque, t);
-        members_put1(who, reach, largest);
+        members_put1(who, bond_ratio, largest);
     }
 }
 

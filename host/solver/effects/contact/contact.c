@@ -105,7 +105,7 @@ static brc_status fall_asleep(brc_simulation *s)
 {
     brc_contact_list *l = &s->contact->now;
     s->contact->due = false;
-    l->n_listed = l->n_pairs = l->n_busy = 0;
+    l->n_listed = l->n_pairs = l->n_with_pairs = 0;
     return brc_buffer_fill_zero(s->contact->stored);
 }
 
@@ -196,7 +196,7 @@ static brc_status gather_turning(brc_simulation *s, double sign, double kick, in
 {
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
-    return BRC_RUN(c->pass.gather_turning, l->n_busy, {"sign", BRC_STATE(sign)}, {"kick", BRC_STATE(kick)},
+    return BRC_RUN(c->pass.gather_turning, l->n_with_pairs, {"sign", BRC_STATE(sign)}, {"kick", BRC_STATE(kick)},
                    {"book", BRC_INT(book)}, {"force", BRC_BUF(force)}, {"torque", BRC_BUF(torque)});
 }
 
@@ -232,7 +232,7 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
-    return BRC_RUN(c->pass.gather_moments, l->n_busy, {"book", BRC_INT(book)});
+    return BRC_RUN(c->pass.gather_moments, l->n_with_pairs, {"book", BRC_INT(book)});
 }
 
 brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
@@ -240,7 +240,7 @@ brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     if (c->affine)
-        BRC_TRY(brc_pass_run_on(c->pass.gather_forces, l->n_busy, r, NULL, NULL));
+        BRC_TRY(brc_pass_run_on(c->pass.gather_forces, l->n_with_pairs, r, NULL, NULL));
     else {
         BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
         BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));

@@ -87,7 +87,8 @@ static const brc_field_row rows[] = {
     {"material", each_solid, 1, BRC_FIELD_INT, NULL, AT(material), "materials of elements", "-", BRC_NOT_KEPT},
     {"mass", each_solid, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of elements", "kg", BRC_NOT_KEPT},
     {"size", each_solid, 1, BRC_FIELD_STATE, NULL, AT(size_of), "sizes of elements", "m", BRC_NOT_KEPT},
-    {"reach", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(reach), "radii of elements", "m", BRC_NOT_KEPT},
+    {"bounding_radius", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(bounding_radius), "radii of elements", "m",
+     BRC_NOT_KEPT},
     {"place", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(place), "places of elements", "m", BRC_NOT_KEPT},
     {"exposed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(exposed), "exposed elements", "-",
      BRC_KEPT("contact.exposed", BRC_KEEP_ALL)},
@@ -196,7 +197,7 @@ static const brc_field_row slot_rows[] = {
     {"slot_of", brc_each_row_end, 1, BRC_FIELD_INT, NULL, OF_LIST(slot_of), "exposed elements", "-", BRC_NOT_KEPT}};
 static const brc_field_row listed_rows[] = {
     {"list", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(list), "exposed elements", "-", BRC_NOT_KEPT},
-    {"busy", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(busy), "exposed elements", "-", BRC_NOT_KEPT},
+    {"with_pairs", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(with_pairs), "exposed elements", "-", BRC_NOT_KEPT},
     {"start", each_exposed_end, 1, BRC_FIELD_INT, NULL, OF_LIST(start), "pairs of elements", "-", BRC_NOT_KEPT},
     {"used", each_exposed, 1, BRC_FIELD_INT, NULL, OF_LIST(used), "pairs of elements", "-", BRC_NOT_KEPT},
 };

@@ -20,15 +20,15 @@ enum {
 
 /* Which pairs there are (contact_search.cl); kept twice, so that pairs find what they remember. */
 typedef struct brc_contact_list {
-    int32_t n_listed, n_pairs, n_busy; /* n_busy: listed elements that have pairs */
+    int32_t n_listed, n_pairs, n_with_pairs; /* n_with_pairs: listed elements that have pairs */
     int64_t entry_room, pair_room;
-    brc_buffer *list, *slot_of, *start, *used, *entry, *pair, *busy, *ends, *history;
+    brc_buffer *list, *slot_of, *start, *used, *entry, *pair, *with_pairs, *ends, *history;
 } brc_contact_list;
 
 struct brc_contact_state {
     struct {
         brc_pass *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *again, *kept, *keep,
-            *changed, *spread, *count, *fill, *busy, *own_pairs, *other_pairs, *pack, *carry;
+            *changed, *spread, *count, *fill, *with_pairs, *own_pairs, *other_pairs, *pack, *carry;
         brc_pass *spheres, *gather_turning, *marked;
         brc_pass *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
         brc_pass *detach, *pose, *turn, *spin_energy;
@@ -44,7 +44,8 @@ struct brc_contact_state {
     int32_t n_pieces; /* of strikers */
     double span;      /* how far from the middle elements are expected [m] */
     /* of rows; id, material, mass and size also of pieces, after them */
-    brc_buffer *place, *reach, *id, *body, *material, *mass, *size_of, *original, *exposed, *built, *posed, *clear;
+    brc_buffer *place, *bounding_radius, *id, *body, *material, *mass, *size_of, *original, *exposed, *built, *posed,
+        *clear;
     /* polyhedra (convex_overlap.h) and pieces */
     brc_buffer *corner, *plane, *loop_start, *loop, *radius, *corner_start, *face_start;
     brc_buffer *piece_striker, *piece_kind, *piece_radius, *piece_own, *piece;

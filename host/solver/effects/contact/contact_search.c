@@ -31,7 +31,7 @@ static brc_status make_passes(brc_simulation *s)
     const brc_pass_wanted of_lists[] = {BRC_PASS(&c->pass.extent, "contact_extent", NULL),
                                         BRC_PASS(&c->pass.largest, "contact_largest", "n"),
                                         BRC_PASS(&c->pass.drift_mean, "contact_drift_mean", "n_blocks"),
-                                        BRC_PASS(&c->pass.busy, "contact_busy", "any at busy"),
+                                        BRC_PASS(&c->pass.with_pairs, "contact_with_pairs", "any at with_pairs"),
                                         BRC_PASS(&c->pass.list, "contact_list", NULL),
                                         BRC_PASS(&c->pass.keys, "contact_keys", "per_edge mask key row"),
                                         BRC_PASS(&c->pass.buckets, "contact_buckets", "key"),
@@ -256,8 +256,8 @@ static brc_status find_redo(brc_simulation *s, bool whole, double per_edge, int3
     BRC_TRY(BRC_RUN(c->pass.again, m, {"whole", BRC_INT(whole ? 1 : 0)}, {"per_edge", BRC_STATE(per_edge)},
                     {"mask", BRC_INT(mask)}, {"row", BRC_BUF(c->row[sorted])}));
     BRC_TRY(scan(s, c->again, m, c->pair_start, n_redo));
-    BRC_TRY(BRC_RUN(c->pass.busy, m, {"any", BRC_BUF(c->again)}, {"at", BRC_BUF(c->pair_start)},
-                    {"busy", BRC_BUF(c->redo)}));
+    BRC_TRY(BRC_RUN(c->pass.with_pairs, m, {"any", BRC_BUF(c->again)}, {"at", BRC_BUF(c->pair_start)},
+                    {"with_pairs", BRC_BUF(c->redo)}));
     return brc_pass_run(c->pass.kept, m);
 }
 
@@ -302,11 +302,11 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
     BRC_TRY(brc_pass_run(c->pass.own_pairs, m));
     BRC_TRY(brc_pass_run(c->pass.other_pairs, m));
     if (n_pairs == 0) return BRC_OK;
-    int64_t n_busy;
-    BRC_TRY(scan(s, c->count, m, c->pair_start, &n_busy));
-    BRC_TRY(BRC_RUN(c->pass.busy, m, {"any", BRC_BUF(c->count)}, {"at", BRC_BUF(c->pair_start)},
-                    {"busy", BRC_BUF(l->busy)}));
-    l->n_busy = (int32_t)n_busy;
+    int64_t n_with_pairs;
+    BRC_TRY(scan(s, c->count, m, c->pair_start, &n_with_pairs));
+    BRC_TRY(BRC_RUN(c->pass.with_pairs, m, {"any", BRC_BUF(c->count)}, {"at", BRC_BUF(c->pair_start)},
+                    {"with_pairs", BRC_BUF(l->with_pairs)}));
+    l->n_with_pairs = (int32_t)n_with_pairs;
     const brc_contact_list *old = &c->before;
     const bool had = old->n_pairs > 0;
     return BRC_RUN(c->pass.carry, n_pairs, {"had", BRC_INT(had ? 1 : 0)},
@@ -320,7 +320,7 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     const brc_contact_list last = c->now;
     c->now = c->before;
     c->before = last;
-    c->now.n_listed = c->now.n_pairs = c->now.n_busy = 0;
+    c->now.n_listed = c->now.n_pairs = c->now.n_with_pairs = 0;
     c->n_todo = 0;
     c->lists += 1;
     BRC_TRY(list_exposed(s));
@@ -349,8 +349,8 @@ static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
     BRC_TRY(room_for_sums(s, n_pairs));
     BRC_TRY(BRC_RUN(c->pass.changed, n_pairs, {"n", BRC_INT(s->layout->n_rows)}, {"touched", BRC_BUF(touched)}));
     BRC_TRY(scan(s, c->flag, n_pairs, c->flag_start, &n_todo));
-    BRC_TRY(BRC_RUN(c->pass.busy, n_pairs, {"any", BRC_BUF(c->flag)}, {"at", BRC_BUF(c->flag_start)},
-                    {"busy", BRC_BUF(c->todo)}));
+    BRC_TRY(BRC_RUN(c->pass.with_pairs, n_pairs, {"any", BRC_BUF(c->flag)}, {"at", BRC_BUF(c->flag_start)},
+                    {"with_pairs", BRC_BUF(c->todo)}));
     c->n_todo = (int32_t)n_todo;
     return BRC_OK;
 }

@@ -172,7 +172,7 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     BRC_TRY(brc_upload_state(s, c->size_of, value, n + np));
     for (int32_t r = 0; r < n; ++r)
         value[r] = layout->element_of_row[r] < 0 ? 0 : reach_of(d, layout->element_of_row[r]);
-    BRC_TRY(brc_upload_state(s, c->reach, value, n));
+    BRC_TRY(brc_upload_state(s, c->bounding_radius, value, n));
     for (int32_t r = 0; r < n; ++r)
         for (int k = 0; k < 3; ++k)
             value[3 * (int64_t)r + k] = layout->element_of_row[r] < 0

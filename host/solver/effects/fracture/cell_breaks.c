@@ -87,7 +87,8 @@ static const brc_field_row rows[] = {
     {"own_branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
     {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(spanned), "supports", "-",
      BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(reach), "ratios of bonds", "-", BRC_NOT_KEPT},
+    {"bond_ratio", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(bond_ratio), "ratios of bonds", "-",
+     BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
 

@@ -21,8 +21,8 @@ struct brc_cell_breaks {
     brc_pass *record, *mark_chosen, *weigh; /* cell_criteria.cl */
     brc_buffer *branch;                     /* dlsm: [n_slots][3][C], owned */
     brc_pass *breaking_strain, *breaking_force, *breaking_strain_listed,
-        *breaking_force_listed;  /* dlsm-published: published_breaks.cl */
-    brc_buffer *spanned, *reach; /* [n_slices][6][C], [n_rows] */
+        *breaking_force_listed;       /* dlsm-published: published_breaks.cl */
+    brc_buffer *spanned, *bond_ratio; /* [n_slices][6][C], [n_rows] */
 };
 
 /* Arrays of the cells' bonds, then of the rings around breaks, then what broken bonds keep. Three scopes, which must

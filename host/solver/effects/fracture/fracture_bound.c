@@ -18,12 +18,12 @@ static void smallest_limits(const brc_simulation *s, double smallest[3])
 }
 
 /* How many times as far as the smallest an element's own limits are; an element without limits is never near. */
-static double ease_of(const double *limit, const double smallest[3])
+static double margin_of(const double *limit, const double smallest[3])
 {
-    double ease = 1e30;
+    double margin_of_limit = 1e30;
     for (int c = 0; c < 3; ++c)
-        if (limit[c] > 0) ease = fmin(ease, limit[c] / smallest[c]);
-    return ease;
+        if (limit[c] > 0) margin_of_limit = fmin(margin_of_limit, limit[c] / smallest[c]);
+    return margin_of_limit;
 }
 
 static brc_status upload_bounds(brc_simulation *s, const double *weakest)
@@ -31,27 +31,27 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
     brc_breaking *f = s->fracture;
     const brc_domain *d = s->domain;
     const int64_t n = s->layout->n_rows;
-    double *ease = NULL, *weight = NULL, smallest[3];
+    double *margin_of_limit = NULL, *weight = NULL, smallest[3];
     brc_status status = BRC_OK;
     smallest_limits(s, smallest);
     for (int c = 0; c < 3; ++c)
         f->scale[c] = smallest[c] > 0 ? 1 / smallest[c] : 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ease, n, "bounds of stress"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &margin_of_limit, n, "bounds of stress"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &weight, n, "bounds of stress"));
     for (int64_t r = 0; r < n; ++r) {
         const int64_t e = s->layout->element_of_row[r];
-        ease[r] = 1e30; /* rows of no element never fail */
+        margin_of_limit[r] = 1e30; /* rows of no element never fail */
         weight[r] = 1;
         if (e < 0) continue;
-        ease[r] = MARGIN * (weakest ? weakest[r] : 1) * ease_of(f->limit + 3 * e, smallest);
+        margin_of_limit[r] = MARGIN * (weakest ? weakest[r] : 1) * margin_of(f->limit + 3 * e, smallest);
         weight[r] = brc_fracture_volume(d, e);
         for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h)
             weight[r] += brc_fracture_volume(d, d->neighbour[h]);
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->ease, ease, n));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->limit_margin, margin_of_limit, n));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weight, weight, n));
 cleanup:
-    brc_memory_free(ease);
+    brc_memory_free(margin_of_limit);
     brc_memory_free(weight);
     return status;
 }

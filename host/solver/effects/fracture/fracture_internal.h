@@ -20,12 +20,12 @@ struct brc_breaking {
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy; /* [n_slots][C] */
     brc_buffer *lost, *broken;                                         /* [n_rows] */
     brc_buffer *gone; /* [n_rows] bonds that bear nothing any more; NULL: those that are broken */
-    brc_buffer *reach, *ease, *weight, *mark; /* fracture.cl */
-    brc_buffer *branch;                       /* [n_slots][3][C] of its elements' bonds; borrowed */
-    brc_buffer *factor, *weakest;             /* only if weighted */
-    bool weighted;                            /* bonds differ in strength */
-    double scale[3];                          /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
-    double *limit;                            /* [n_elements][3] host */
+    brc_buffer *stress_bound, *limit_margin, *weight, *mark; /* fracture.cl */
+    brc_buffer *branch;                                      /* [n_slots][3][C] of its elements' bonds; borrowed */
+    brc_buffer *factor, *weakest;                            /* only if weighted */
+    bool weighted;                                           /* bonds differ in strength */
+    double scale[3]; /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
+    double *limit;   /* [n_elements][3] host */
     double slope, friction;
     bool drucker_prager;
     struct brc_beam_softening

@@ -61,10 +61,10 @@ static brc_status make_passes(brc_simulation *s, brc_rings *r)
         BRC_PASS(&r->replace, "ring_replace", "list")};
     BRC_TRY(BRC_PASSES_MAKE(s, &rings, of_rings));
     /* forces around breaks less those before */
-    static const brc_value_row differences[] = {{"gain", BRC_VALUE_BUFFER, AT(force)},
+    static const brc_value_row differences[] = {{"delta", BRC_VALUE_BUFFER, AT(force)},
                                                 {"was", BRC_VALUE_BUFFER, AT(force)}};
-    const brc_scope gains = {.owner = "differences of forces", .base = r, BRC_VALUES(differences), .outer = &run};
-    BRC_TRY(BRC_PASSES(s, &gains, BRC_PASS(&r->gain, "ring_gain", NULL),
+    const brc_scope deltas = {.owner = "differences of forces", .base = r, BRC_VALUES(differences), .outer = &run};
+    BRC_TRY(BRC_PASSES(s, &deltas, BRC_PASS(&r->delta, "ring_delta", NULL),
                        BRC_PASS(&r->book, "ring_book", "listed per list lost")));
     static const brc_value_row turning[] = {{"mass", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, inertia)},
                                             {"force", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, torque)},
@@ -189,7 +189,7 @@ static bool books_jumps(const brc_simulation *s, const brc_rings *r)
     return s->model->conserves && s->lost_numerical && r->half_kick > 0;
 }
 
-/* r->force holds the gain: prescribed elements swing about nothing. */
+/* r->force holds the change: prescribed elements swing about nothing. */
 static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, int k, int listed)
 {
     BRC_TRY(brc_loads_zero_imposed(s, r->force));
@@ -215,7 +215,7 @@ brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *r)
 {
     const int32_t n = s->layout->n_rows;
     if (!books_jumps(s, r)) return BRC_OK;
-    BRC_TRY(brc_pass_run(r->gain, n));
+    BRC_TRY(brc_pass_run(r->delta, n));
     return book_jumps(s, r, n, 0, 0);
 }
 

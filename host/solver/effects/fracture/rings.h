@@ -16,7 +16,7 @@ typedef struct brc_ring_list {
 } brc_ring_list;
 
 typedef struct brc_rings {
-    brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *replace_turns, *gain, *book;
+    brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *replace_turns, *delta, *book;
     brc_buffer *touched, *level; /* [n_rows] */
     brc_buffer *count;           /* [BRC_RING_KINDS][blocks + 1] */
     int32_t *count_read;         /* the same on the host */

@@ -44,7 +44,8 @@ static const brc_field_row traction_rows[] = {
     {"place", brc_each_listed, 2, BRC_FIELD_INT, NULL, AT(place), "traction", "-", BRC_NOT_KEPT},
     {"total", brc_each_listed, 3, BRC_FIELD_COEFF, NULL, AT(total), "traction", "N", BRC_NOT_KEPT},
     {"moment", brc_each_listed, 9, BRC_FIELD_COEFF, NULL, AT(moment), "traction", "N m", BRC_NOT_KEPT},
-    {"reach", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(reach), "traction", "J", BRC_KEPT("reach", BRC_KEEP_ALL)},
+    {"last_path", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(last_path), "traction", "J",
+     BRC_KEPT("reach", BRC_KEEP_ALL)},
     {"work", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(work), "work of tractions", "J",
      BRC_KEPT("work", BRC_KEEP_ALL)},
 };
@@ -74,7 +75,7 @@ BRC_FIELD_TABLE(brc_imposed_fields, "imposed elements", BRC_LIFE_STAGE, NULL, im
 static const brc_field_row push_rows[] = {
     {"element", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(element), "forces on elements", "-", BRC_NOT_KEPT},
     {"total", brc_each_listed, 3, BRC_FIELD_STATE, NULL, AT(total), "forces on elements", "N", BRC_NOT_KEPT},
-    {"reach", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(reach), "forces on elements", "J",
+    {"last_path", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(last_path), "forces on elements", "J",
      BRC_KEPT("reach", BRC_KEEP_ALL)},
     {"work", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(work), "work of forces on elements", "J",
      BRC_KEPT("work", BRC_KEEP_ALL)},

@@ -10,11 +10,11 @@ static const double clear = 0.5;
 enum { LOAD = 12 }; /* CLOSED_LOAD of closed_faces.cl */
 
 struct brc_closed_faces {
-    brc_pass *keep, *look_pass, *follow, *press, *flux, *force, *energy, *again, *gain_pass;
+    brc_pass *keep, *probe_pass, *follow, *press, *flux, *force, *energy, *again, *delta_pass;
     brc_buffer *closed, *spring, *overlap, *slide; /* [n_slots][C], slide [n_slots][3][C], NULL without friction */
     brc_buffer *place;                             /* [n_rows][3] */
     brc_buffer *next, *presses, *look, *near;      /* [n_rows] */
-    brc_buffer *load, *gain;                       /* [n_rows][LOAD] */
+    brc_buffer *load, *delta;                      /* [n_rows][LOAD] */
     brc_buffer *held, *rubbed;                     /* [n_rows] */
     bool any;                                      /* some bond has broken */
     bool all;                                      /* all faces are looked at */
@@ -98,10 +98,10 @@ static const brc_field_row rows[] = {
     {"next", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(next), "broken faces", "-",
      BRC_KEPT("closed.next", BRC_KEEP_ALL)},
     {"presses", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(presses), "broken faces", "-", BRC_NOT_KEPT},
-    {"look", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(look), "broken faces", "-", BRC_NOT_KEPT},
+    {"probe", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(look), "broken faces", "-", BRC_NOT_KEPT},
     {"near", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(near), "broken faces", "-", BRC_NOT_KEPT},
     {"load", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(load), "forces of broken faces", "N", BRC_NOT_KEPT},
-    {"gain", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(gain), "forces of broken faces", "N", BRC_NOT_KEPT},
+    {"delta", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(delta), "forces of broken faces", "N", BRC_NOT_KEPT},
     {"held", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(held), "energy of broken faces", "J", BRC_NOT_KEPT},
     {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
      BRC_KEPT("closed.rubbed", BRC_KEEP_ALL)},
@@ -117,16 +117,16 @@ static brc_status make_passes(brc_simulation *s, closed_faces *f)
                              .tables = {&brc_closed_face_fields},
                              .outer = brc_cell_scopes_make(s, &run, &scopes)};
     const brc_pass_wanted wanted[] = {BRC_PASS(&f->keep, "closed_keep", NULL),
-                                      BRC_PASS(&f->look_pass, "closed_look", "moment"),
+                                      BRC_PASS(&f->probe_pass, "closed_probe", "moment"),
                                       BRC_PASS(&f->follow, "closed_follow", "moment all moves clear friction dt"),
                                       BRC_PASS(&f->press, "closed_press", "friction"),
                                       BRC_PASS(&f->again, "closed_again", "moment friction"),
-                                      BRC_PASS(&f->gain_pass, "closed_gain", "moment half_kick")};
+                                      BRC_PASS(&f->delta_pass, "closed_delta", "moment half_kick")};
     BRC_TRY(BRC_PASSES_MAKE(s, &faces, wanted));
-    const brc_scope sums = brc_scope_of_sums(s, &faces), gains = brc_scope_of_gains(s, &faces),
+    const brc_scope sums = brc_scope_of_sums(s, &faces), deltas = brc_scope_of_deltas(s, &faces),
                     request = brc_scope_of_request(&faces);
     BRC_TRY(BRC_PASSES(s, &sums, BRC_PASS(&f->energy, "closed_energy", NULL)));
-    BRC_TRY(BRC_PASSES(s, &gains, BRC_PASS(&f->flux, "closed_flux", "listed list fluxes")));
+    BRC_TRY(BRC_PASSES(s, &deltas, BRC_PASS(&f->flux, "closed_flux", "listed list fluxes")));
     return BRC_PASSES(s, &request, BRC_PASS(&f->force, "closed_force", "listed list"));
 }
 
@@ -170,7 +170,7 @@ brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, 
     const closed_faces *f = faces_of(s);
     if (!acts(s, r)) return BRC_OK;
     const brc_rings *rings = s->fracture->cells->rings;
-    const bool whole = brc_pass_is_whole(s, list, ring), gains = r->rings && brc_rims_gain(s, r->rings);
+    const bool whole = brc_pass_is_whole(s, list, ring), deltas = r->rings && brc_rims_add(s, r->rings);
     const int32_t n = whole ? s->n_groups : list->n[ring];
     return BRC_RUN(f->flux, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])},
                    {"fluxes", BRC_INT(gains ? brc_rims_records(rings) : 0)});
@@ -200,7 +200,7 @@ brc_status brc_closed_faces_look(brc_simulation *s)
 {
     const closed_faces *f = faces_of(s);
     if (!f || sleeps(s)) return BRC_OK;
-    return BRC_RUN(f->look_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))});
+    return BRC_RUN(f->probe_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))});
 }
 
 brc_status brc_closed_faces_change(brc_simulation *s, double half_kick)
@@ -208,7 +208,7 @@ brc_status brc_closed_faces_change(brc_simulation *s, double half_kick)
     const closed_faces *f = faces_of(s);
     if (!f || sleeps(s)) return BRC_OK;
     BRC_TRY(BRC_RUN(f->again, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"friction", BRC_COEFF(friction_of(s))}));
-    return BRC_RUN(f->gain_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"half_kick", BRC_STATE(half_kick)});
+    return BRC_RUN(f->delta_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"half_kick", BRC_STATE(half_kick)});
 }
 
 /* ---- what it knows ---- */

@@ -17,7 +17,7 @@ typedef struct extent {
 static extent extent_of(const brc_simulation *s, const brc_force_request *r)
 {
     if (!r->rings) return (extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
-    const bool rim = brc_rims_gain(s, r->rings); /* rings 2 and 3 are done otherwise */
+    const bool rim = brc_rims_add(s, r->rings); /* rings 2 and 3 are done otherwise */
     return (extent){.list = &r->rings->around,
                     .gradient = s->pass.ring.gradient,
                     .stress = s->pass.ring.stress,
@@ -98,7 +98,7 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
         BRC_TRY(brc_pass_over(s, s->pass.stress, s->pass.stress_listed, x->list, x->stress, r, NULL));
     BRC_TRY(face_moments(s, r));
     const bool moments = s->loads.on_faces || brc_contact_acts(s, r);
-    if (r->rings && brc_rims_gain(s, r->rings))
+    if (r->rings && brc_rims_add(s, r->rings))
         BRC_TRY(brc_rims_flux(s, r, moments));
     else
         BRC_TRY(brc_pass_over(s, r->finite ? s->pass.flux : s->pass.flux_linear, s->pass.flux_listed, flux_list,
@@ -145,7 +145,7 @@ brc_status brc_dlsm_refresh(brc_simulation *s)
 brc_status brc_dlsm_replace_around(brc_simulation *s, const brc_rings *rings)
 {
     BRC_TRY(brc_rims_force(s, rings));
-    return brc_rings_replace(s, rings, brc_rims_gain(s, rings) ? 1 : 3, 3);
+    return brc_rings_replace(s, rings, brc_rims_add(s, rings) ? 1 : 3, 3);
 }
 
 /* Energies of the elements, s->elastic_energy and s->stabilisation_energy, without those of held faces. */

@@ -7,7 +7,7 @@ bool brc_rims_energies_apart(const brc_simulation *s)
     return !brc_softening_is_on(s);
 }
 
-bool brc_rims_may_gain(const brc_simulation *s, const brc_rings *rings)
+bool brc_rims_may_add(const brc_simulation *s, const brc_rings *rings)
 {
     return brc_rims_energies_apart(s) && !s->contact && !rings->whole_force;
 }
@@ -18,36 +18,36 @@ int32_t brc_rims_records(const brc_rings *rings)
 {
     return rings->around.n[2] + 1;
 }
-bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings)
+bool brc_rims_add(const brc_simulation *s, const brc_rings *rings)
 {
     return rings->placed && !brc_pass_is_whole(s, &rings->around, 2) &&
            2 * 9 * (int64_t)brc_rims_records(rings) <= s->layout->n_slots * s->layout->slice;
 }
 
-brc_scope brc_scope_of_gains(const brc_simulation *s, const brc_scope *outer)
+brc_scope brc_scope_of_deltas(const brc_simulation *s, const brc_scope *outer)
 {
-    static const brc_value_row values[] = {{"gain", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_cell_breaks, measure)}};
-    return (brc_scope){.owner = "gains of the rim", .base = s->fracture->cells, BRC_VALUES(values), .outer = outer};
+    static const brc_value_row values[] = {{"delta", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_cell_breaks, measure)}};
+    return (brc_scope){.owner = "changes of the rim", .base = s->fracture->cells, BRC_VALUES(values), .outer = outer};
 }
 
 brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells)
 {
     brc_cell_breaks *c = s->fracture->cells;
-    const brc_scope gains = brc_scope_of_gains(s, cells), request = brc_scope_of_request(&gains);
+    const brc_scope deltas = brc_scope_of_deltas(s, cells), request = brc_scope_of_request(&deltas);
     const brc_pass_wanted of_request[] = {
-        BRC_PASS(&c->rim_stress, "rim_stress", BRC_LISTED " gains"),
+        BRC_PASS(&c->rim_stress, "rim_stress", BRC_LISTED " deltas"),
         BRC_PASS(&c->rim_inner_flux, "rim_inner_flux", BRC_LISTED " face_loads fluxes")};
     BRC_TRY(BRC_PASSES_MAKE(s, &request, of_request));
-    const brc_pass_wanted of_gains[] = {BRC_PASS(&c->rim_flux, "rim_flux", BRC_LISTED " fluxes"),
-                                        BRC_PASS(&c->rim_force, "rim_force", BRC_LISTED " fluxes")};
-    return BRC_PASSES_MAKE(s, &gains, of_gains);
+    const brc_pass_wanted of_deltas[] = {BRC_PASS(&c->rim_flux, "rim_flux", BRC_LISTED " fluxes"),
+                                         BRC_PASS(&c->rim_force, "rim_force", BRC_LISTED " fluxes")};
+    return BRC_PASSES_MAKE(s, &deltas, of_deltas);
 }
 
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r)
 {
     const brc_cell_breaks *c = s->fracture->cells;
     return brc_pass_over(s, NULL, c->rim_stress, &r->rings->around, 1, r,
-                         BRC_GIVEN({"gains", BRC_INT(brc_rims_gain(s, r->rings) ? 1 : 0)}));
+                         BRC_GIVEN({"deltas", BRC_INT(brc_rims_add(s, r->rings) ? 1 : 0)}));
 }
 
 brc_status brc_rims_flux(brc_simulation *s, const brc_force_request *r, bool moments)
@@ -63,7 +63,7 @@ brc_status brc_rims_flux(brc_simulation *s, const brc_force_request *r, bool mom
 brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings)
 {
     const brc_cell_breaks *c = s->fracture->cells;
-    if (!brc_rims_gain(s, rings)) return BRC_OK;
+    if (!brc_rims_add(s, rings)) return BRC_OK;
     return brc_pass_over(s, NULL, c->rim_force, &rings->around, 3, NULL,
                          BRC_GIVEN({"fluxes", BRC_INT(brc_rims_records(rings))}));
 }

@@ -11,17 +11,17 @@
 bool brc_rims_energies_apart(const brc_simulation *s);
 /* Whether the rim may be done so: the list is to be placed (rings.h). Not where surfaces touch or soften, or in the
  * comparison with whole evaluations. */
-bool brc_rims_may_gain(const brc_simulation *s, const brc_rings *rings);
+bool brc_rims_may_add(const brc_simulation *s, const brc_rings *rings);
 /* Whether they are: the list was placed, there is room for what its elements gained, and the pass over the rim is not
  * over the whole body anyway. */
-bool brc_rims_gain(const brc_simulation *s, const brc_rings *rings);
+bool brc_rims_add(const brc_simulation *s, const brc_rings *rings);
 /* Of each of the two gains: those of B follow those of P. */
 int32_t brc_rims_records(const brc_rings *rings);
 
 /* Passes, in the scopes of cells that break (cell_breaks_internal.h). */
 brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells);
 /* What P and B gain stands where the stresses of marked bonds were. */
-brc_scope brc_scope_of_gains(const brc_simulation *s, const brc_scope *outer);
+brc_scope brc_scope_of_deltas(const brc_simulation *s, const brc_scope *outer);
 /* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rim wants it. */
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r);
 /* B of the rings 0 to 2 where the rim is done so, 0 and 1 as a whole. moments: there are moments of faces

@@ -103,7 +103,7 @@ brc_status brc_published_ratio(brc_simulation *s, double *out)
     double *value = NULL;
     *out = 0;
     BRC_TRY(BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    const brc_status status = brc_coeff_from_rows(s, s->fracture->cells->reach, value, 1);
+    const brc_status status = brc_coeff_from_rows(s, s->fracture->cells->bond_ratio, value, 1);
     for (int64_t e = 0; status == BRC_OK && e < s->domain->n_elements; ++e)
         *out = fmax(*out, value[e]);
     brc_memory_free(value);

@@ -134,17 +134,17 @@ KERNEL void ring_forget(int n, OWN(int) list, PUT(int) level)
 }
 
 /* The force of an element becomes `now` [N], and its velocity gains half_kick over mass times what the force loses.
- * gain: what force^2 / mass gained, by components. */
+ * delta: what force^2 / mass changed by, in components. */
 LAW void ring_take(brc_size at, state half_kick, state per_mass, state now, UPDATE(state) force, UPDATE(state) velocity,
-                   PUT(state) gain)
+                   PUT(state) delta)
 {
     const state was = force[at];
     velocity[at] += half_kick * (was - now) * per_mass;
     force[at] = now;
-    gain[at] = (now * now - was * was) * per_mass;
+    delta[at] = (now * now - was * was) * per_mass;
 }
 
-/* fresh [n][3] takes the place of the force of the listed elements. Afterwards fresh holds the gain. */
+/* fresh [n][3] takes the place of the force of the listed elements. Afterwards fresh holds the delta. */
 KERNEL void ring_replace(int n, state half_kick, OWN(int) list, OWN(state) mass, UPDATE(state) fresh,
                          UPDATE(state) force, UPDATE(state) velocity)
 {
@@ -155,9 +155,9 @@ KERNEL void ring_replace(int n, state half_kick, OWN(int) list, OWN(state) mass,
     }
 }
 
-/* The same gain of all elements, whose forces were evaluated in their place: was [n][3] holds the forces from before,
- * then the gain. */
-KERNEL void ring_gain(int n, OWN(state) mass, OWN(state) force, UPDATE(state) was)
+/* The same delta of all elements, whose forces were evaluated in their place: was [n][3] holds the forces from before,
+ * then the delta. */
+KERNEL void ring_delta(int n, OWN(state) mass, OWN(state) force, UPDATE(state) was)
 {
     FOR_EACH_ITEM(e, n) {
         for (int c = 0; c < 3; ++c) {
@@ -169,12 +169,12 @@ KERNEL void ring_gain(int n, OWN(state) mass, OWN(state) force, UPDATE(state) wa
 
 /* What velocity Verlet loses where forces jump. Of a linear system it keeps K + W - dt^2/8 f.M^-1 f, so K + W swings
  * about a mean that lies dt^2/16 (v.K v - f.M^-1 f) above it; where f jumps at rest, that mean falls by dt^2/16 times
- * the gain of f.M^-1 f. per: dt^2/16; gain [n][3] [N^2/kg]; lost [n] [J]. listed: of the n elements of the list, else
+ * the delta of f.M^-1 f. per: dt^2/16; delta [n][3] [N^2/kg]; lost [n] [J]. listed: of the n elements of the list, else
  * of all. */
-KERNEL void ring_book(int n, int listed, state per, OWN(int) list, OWN(state) gain, UPDATE(state) lost)
+KERNEL void ring_book(int n, int listed, state per, OWN(int) list, OWN(state) delta, UPDATE(state) lost)
 {
     FOR_EACH_ITEM(k, n) {
         const brc_size e = (brc_size)(listed ? list[k] : k);
-        lost[e] += per * (gain[e * 3] + gain[e * 3 + 1] + gain[e * 3 + 2]);
+        lost[e] += per * (delta[e * 3] + delta[e * 3 + 1] + delta[e * 3 + 2]);
     }
 }
