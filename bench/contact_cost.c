@@ -5,7 +5,7 @@
 #include "../host/base/random.h"
 #include "../host/scene/scene_reader.h"
 #include "../host/solver/effects/fracture/fracture.h"
-#include "../host/solver/run/simulation.h"
+#include "../host/solver/simulation.h"
 #include "../host/solver/effects/contact/touching.h"
 #include <math.h>
 #include <stdio.h>

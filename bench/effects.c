@@ -6,7 +6,7 @@
 #include "../host/base/memory.h"
 #include "../host/solver/effects/fracture/fracture.h"
 #include "../host/solver/effects/guard.h"
-#include "../host/solver/run/simulation.h"
+#include "../host/solver/simulation.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

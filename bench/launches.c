@@ -2,7 +2,7 @@
 #include "cube.h"
 #include "../host/base/log.h"
 #include "../host/device/device_bandwidth.h"
-#include "../host/solver/run/simulation.h"
+#include "../host/solver/simulation.h"
 #include <math.h>
 
 enum { WARM_STEPS = 600, SAMPLES = 5, TRIAL_LAUNCHES = 2000, TRIAL_WAITS = 200, SMALL = 4000 };

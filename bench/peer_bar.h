@@ -2,7 +2,7 @@
 #ifndef BRC_BENCH_PEER_BAR_H
 #define BRC_BENCH_PEER_BAR_H
 
-#include "../host/solver/run/simulation.h"
+#include "../host/solver/simulation.h"
 #include "peer.h"
 
 /* Advance by `steps`, with a sample after every `every` steps and one before. Momentum: sum of m v_x cos(pi x / 1 m).

@@ -84,7 +84,7 @@ static brc_status choose_beams(brc_context *context, field *f)
 static brc_status make_field(brc_context *context, const brc_peers_request *r, bool bar, field *f)
 {
     const brc_device_request open = {.selector = "cpu", .precision = BRC_DOUBLE, .n_threads = r->n_threads};
-    brc_cube_make(&f->cube, BRC_MODEL_CBM);
+    brc_cube_make(&f->cube, brc_model_of_beams());
     f->cube.stage.n_initials = 0;
     if (bar) f->cube.body.shape.size[1] = f->cube.body.shape.size[2] = BRC_BAR_WIDTH;
     BRC_TRY(brc_file_join(context, r->folder, bar ? "bar" : "cube", &f->folder));
@@ -188,7 +188,7 @@ static brc_status measure_bar(brc_context *context, const brc_peers_request *r, 
         const brc_peer *peer = k < 0 ? NULL : &peers[k];
         brc_peer_result_free(&theirs);
         if (peer) BRC_TRY_OR(cleanup, brc_peer_run(context, peer, &ask, &theirs));
-        begin_row(r, "peers-bar", "frequency", "Hz", BRC_MODEL_CBM, f.domain, peer, rows);
+        begin_row(r, "peers-bar", "frequency", "Hz", brc_model_of_beams(), f.domain, peer, rows);
         brc_rows_number(rows, "reference", reference);
         brc_rows_number(rows, "ours", frequency);
         brc_rows_number(rows, "error", frequency / reference - 1);
@@ -284,17 +284,17 @@ static brc_status measure_cube(brc_context *context, const brc_peers_request *r,
     brc_progress *progress = NULL;
     runner *runners = NULL;
     brc_status status = BRC_OK;
-    brc_cube_make(&cells, BRC_MODEL_DLSM);
+    brc_cube_make(&cells, brc_model_of_cells());
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &runners, n + 2, "programs of the bench"));
     BRC_TRY_OR(cleanup, make_field(context, r, false, &f));
     BRC_TRY_OR(cleanup, write_inputs(context, r, &f, CUBE_TYPES, peers, n));
     BRC_TRY_OR(cleanup, brc_cube_build(context, r->elements, false, &domain));
     BRC_TRY_OR(cleanup, brc_simulation_create(context, &cells.scene, domain, f.device, &simulation));
     BRC_TRY_OR(cleanup, brc_simulation_begin_stage(simulation, 0));
-    runners[0] = (runner){.simulation = f.simulation, .model = BRC_MODEL_CBM, .domain = f.domain};
+    runners[0] = (runner){.simulation = f.simulation, .model = brc_model_of_beams(), .domain = f.domain};
     for (int k = 0; k < n; ++k)
-        runners[1 + k] = (runner){.peer = &peers[k], .model = BRC_MODEL_CBM, .domain = f.domain};
-    runners[n + 1] = (runner){.simulation = simulation, .model = BRC_MODEL_DLSM, .domain = domain};
+        runners[1 + k] = (runner){.peer = &peers[k], .model = brc_model_of_beams(), .domain = f.domain};
+    runners[n + 1] = (runner){.simulation = simulation, .model = brc_model_of_cells(), .domain = domain};
     const brc_peer_request ask = {.folder = f.folder,
                                   .steps = r->steps,
                                   .warm = WARM_STEPS,

@@ -5,7 +5,7 @@
 #include "../host/base/ranks.h"
 #include "../host/device/device_list.h"
 #include "../host/solver/core/layout.h"
-#include "../host/solver/run/simulation.h"
+#include "../host/solver/simulation.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
 #include "../host/scene/scene_reader.h"
-#include "../host/solver/run/simulation.h"
+#include "../host/solver/simulation.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

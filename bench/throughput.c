@@ -4,7 +4,7 @@
 #include "../host/base/log.h"
 #include "../host/base/memory.h"
 #include "../host/device/device_bandwidth.h"
-#include "../host/solver/run/simulation.h"
+#include "../host/solver/simulation.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

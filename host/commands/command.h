@@ -2,7 +2,7 @@
 #ifndef BRC_COMMANDS_COMMAND_H
 #define BRC_COMMANDS_COMMAND_H
 
-#include "../solver/run/simulation.h"
+#include "../solver/simulation.h"
 #include <stdio.h>
 
 /* What every command is given. */

@@ -138,6 +138,8 @@ struct brc_text;
 void brc_study_add_cell(struct brc_text *text, const char *cell);
 /* A measure of a run that is done; NAN: there is none. */
 double brc_study_measured(const brc_study_outcome *outcome, const char *name);
+/* Its text; "": the run has none. */
+const char *brc_study_measure(const brc_study_outcome *o, const char *name);
 
 /* Weibull's law of n > 1 positive values that are not all equal, by maximum likelihood: `modulus` with the standard
  * error of many values, `unbiased_modulus`, times (n - 2) / (n - 0.68) (Ross, IEEE Trans. Dielectr. Electr. Insul. 1,

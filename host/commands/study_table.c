@@ -8,20 +8,6 @@
 
 enum { VALUE = 256 };
 
-void brc_study_add_cell(brc_text *text, const char *cell)
-{
-    if (!strpbrk(cell, ",\"\n")) {
-        brc_text_add_bytes(text, cell, strlen(cell));
-        return;
-    }
-    brc_text_add(text, "\"");
-    for (const char *c = cell; *c; ++c) {
-        if (*c == '"') brc_text_add(text, "\"");
-        brc_text_add_bytes(text, *c == '\n' ? " " : c, 1);
-    }
-    brc_text_add(text, "\"");
-}
-
 /* Measures in the order of the first run that has them. */
 typedef struct names {
     int n;
@@ -41,19 +27,6 @@ static names measures_of(const brc_study *study, const brc_study_outcome *outcom
     return all;
 }
 
-static const char *measured(const brc_study_outcome *o, const char *name)
-{
-    for (int m = 0; m < o->n_measures; ++m)
-        if (strcmp(o->name[m], name) == 0) return o->text[m];
-    return "";
-}
-
-double brc_study_measured(const brc_study_outcome *o, const char *name)
-{
-    const char *text = measured(o, name);
-    return strcmp(o->status, "done") == 0 && text[0] ? strtod(text, NULL) : NAN;
-}
-
 static void add_table(brc_text *text, const brc_study *study, const brc_study_outcome *outcome)
 {
     const names all = measures_of(study, outcome);
@@ -71,7 +44,7 @@ static void add_table(brc_text *text, const brc_study *study, const brc_study_ou
             brc_study_add_cell(text, brc_study_value(study, run, k, value, sizeof value));
         }
         for (int m = 0; m < all.n; ++m)
-            brc_text_add(text, ",%s", measured(&outcome[run], all.name[m]));
+            brc_text_add(text, ",%s", brc_study_measure(&outcome[run], all.name[m]));
         brc_text_add(text, ",");
         brc_study_add_cell(text, outcome[run].reason ? outcome[run].reason : "");
         brc_text_add(text, "\n");

@@ -9,26 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct {
-    const char *name;
-    int state_bytes, coeff_bytes;
-} precisions[] = {[BRC_DOUBLE] = {"double", 8, 8}, [BRC_MIXED] = {"mixed", 8, 4}, [BRC_SINGLE] = {"single", 4, 4}};
-
-const char *brc_precision_name(brc_precision precision)
-{
-    return precisions[precision].name;
-}
-
-int brc_precision_state_bytes(brc_precision precision)
-{
-    return precisions[precision].state_bytes;
-}
-
-int brc_precision_coeff_bytes(brc_precision precision)
-{
-    return precisions[precision].coeff_bytes;
-}
-
 void brc_device_describe(const brc_device_info *info, char *text, size_t bytes)
 {
     snprintf(text, bytes, "%s (%s)", info->selector, info->name);
@@ -176,11 +156,6 @@ void brc_device_close(brc_device **handle)
     }
     brc_memory_free(device);
     *handle = NULL;
-}
-
-const brc_device_info *brc_device_get_info(const brc_device *device)
-{
-    return &device->info;
 }
 
 brc_precision brc_device_get_precision(const brc_device *device)
@@ -427,34 +402,6 @@ brc_arg_kind brc_kernel_parameter(const brc_kernel *kernel, int k, char *name, s
 brc_use brc_kernel_use(const brc_kernel *kernel, int k)
 {
     return kernel->signature.use[k];
-}
-
-brc_packed_arg brc_arg_pack(const brc_device *device, const brc_arg *arg)
-{
-    brc_packed_arg packed;
-    int bytes = 8;
-    switch (arg->kind) {
-    case BRC_ARG_BUFFER:
-        packed.value.memory = arg->value.buffer ? arg->value.buffer->memory : device->dummy;
-        packed.bytes = sizeof(void *);
-        packed.type = 'p';
-        return packed;
-    case BRC_ARG_INT:
-        packed.value.integer = arg->value.integer;
-        packed.bytes = sizeof(int32_t);
-        packed.type = 'i';
-        return packed;
-    case BRC_ARG_STATE: bytes = precisions[device->precision].state_bytes; break;
-    case BRC_ARG_COEFF: bytes = precisions[device->precision].coeff_bytes; break;
-    default: break;
-    }
-    if (bytes == 8)
-        packed.value.dbl = arg->value.real;
-    else
-        packed.value.single = (float)arg->value.real;
-    packed.bytes = (size_t)bytes;
-    packed.type = bytes == 8 ? 'd' : 'f';
-    return packed;
 }
 
 /* A wrong argument list would be read as garbage by the kernel, so it is always checked: a few comparisons a launch. */

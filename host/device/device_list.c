@@ -6,13 +6,6 @@
 #include "../base/ranks.h"
 #include <stdio.h>
 
-brc_status brc_device_list_add(brc_context *context, brc_device_list *list, const brc_device_info *info)
-{
-    BRC_TRY(brc_memory_resize(context, (void **)&list->items, list->n + 1, sizeof *list->items, "device list"));
-    list->items[list->n++] = *info;
-    return BRC_OK;
-}
-
 /* PoCL and other OpenCL drivers for the CPU are never taken on their own: the C build is the reference and faster. */
 int brc_device_list_choose(const brc_device_list *list, brc_precision precision, char *why, size_t bytes)
 {

@@ -2,7 +2,7 @@
 #include "library_internal.h"
 #include "../base/memory.h"
 #include "../solver/effects/fracture/fracture.h"
-#include "../solver/run/live_arrays.h"
+#include "../solver/core/live_arrays.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "../commands/run_scene.h"
 #include "../include/breccia.h"
 #include "../output/sensors/assembly_sensors.h"
-#include "../solver/run/patience.h"
+#include "../solver/core/trial_budget.h"
 #include <pthread.h>
 
 /* The same status in the public list. */

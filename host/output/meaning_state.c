@@ -1,5 +1,5 @@
 /* Table of the checkpoints: /moment and /identity of the file, /run of the recorder, /parts/K of the simulation of part
- * K (solver/run/state_store.h). */
+ * K (solver/core/state_store.h). */
 #include "meaning.h"
 #include <stddef.h>
 

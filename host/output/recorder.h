@@ -29,7 +29,7 @@
 #include "../../preprocess/domain/domain.h"
 #include "../scene/scene.h"
 #include "../solver/run/assembly.h"
-#include "../solver/run/state_store.h"
+#include "../solver/core/state_store.h"
 #include "checkpoint/checkpoint_report.h"
 #include "sensors/measures.h"
 #include "prediction.h"

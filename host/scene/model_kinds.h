@@ -19,5 +19,8 @@ typedef struct brc_model_traits {
 const brc_model_traits *brc_model_traits_of(brc_model_kind kind);
 /* As in scenes. */
 const char *brc_model_name(brc_model_kind kind);
+/* Of samples that are made of beams, or of cells, whatever the model: the first in models.def. */
+brc_model_kind brc_model_of_beams(void);
+brc_model_kind brc_model_of_cells(void);
 
 #endif

@@ -264,3 +264,21 @@ const char *brc_measure_unit(const brc_scene *scene, const brc_measure *measure)
     if (measure->kind == BRC_MEASURE_RATE) return RATE_UNIT[unit_index(y)];
     return measure->kind == BRC_MEASURE_SLOPE ? SLOPE_UNIT[unit_index(y)][unit_index(x)] : brc_sensor_unit(y);
 }
+
+/* The first with these elements, in the order of models.def. */
+static brc_model_kind first_of(bool spheres)
+{
+    for (int k = 0; k < BRC_N_MODELS; ++k)
+        if (brc_model_traits_of((brc_model_kind)k)->spheres == spheres) return (brc_model_kind)k;
+    return BRC_N_MODELS;
+}
+
+brc_model_kind brc_model_of_beams(void)
+{
+    return first_of(true);
+}
+
+brc_model_kind brc_model_of_cells(void)
+{
+    return first_of(false);
+}

@@ -1,5 +1,5 @@
 /* Constant drag: every element that moves loses the same speed in the same time, whatever its mass, until it rests. */
-#include "../run/simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include "../run/state_store.h"
 
 typedef struct drag {

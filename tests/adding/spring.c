@@ -1,5 +1,5 @@
 /* Model spring: central springs between cells, of stiffness E S / L. */
-#include "../../run/simulation_internal.h"
+#include "../../core/simulation_internal.h"
 #include <math.h>
 
 typedef struct springs {

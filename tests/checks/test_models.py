@@ -5,26 +5,17 @@ import repository
 MODELS = "host/solver/models/"
 NAMED = re.compile(r"\bBRC_MODEL_[A-Z_]+\b|\bbrc_(is|wants)_(dlsm|published|cbm|beams)\b")
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"([^"]+)"', re.M)
-# Files that still do, with how often at most. The list only shrinks.
-NAMES = {
-    "bench/peers.c": 6,  # compares with codes of beams
-    "host/commands/calibrate/strength_test.c": 1,  # the laws of beams are fitted to samples of beams
-    "host/solver/laws/beam_sample.c": 1,
-    "host/scene/models.def": 3,
-}
-# Files that include headers of a model that is not theirs. The list only shrinks.
-INCLUDES = set()
+REGISTRY = "host/scene/models.def"  # a line each
 
 
 def predicates(files):
     findings = []
     for path, text in files.items():
-        if path.startswith(MODELS):
+        if path.startswith(MODELS) or path == REGISTRY:
             continue
         found = NAMED.findall(repository.code_of(text))
-        if len(found) > NAMES.get(path, 0):
-            findings.append(f"{path}: names a model {len(found)} times, {NAMES.get(path, 0)} at most; ask its descriptor "
-                            f"({MODELS}model.h)")
+        if found:
+            findings.append(f"{path}: names a model {len(found)} times; ask its descriptor ({MODELS}model.h)")
     return findings
 
 
@@ -37,7 +28,7 @@ def neighbours(files):
             inner = re.search(r"(?:^|/)models/(\w+)/", written)
             beside = re.match(r"\.\./(\w+)/", written) if own else None
             other = inner.group(1) if inner else beside.group(1) if beside else None
-            if other and other != own and path not in INCLUDES:
+            if other and other != own:
                 findings.append(f"{path}: includes {written}, which is inside of model {other}")
     return findings
 

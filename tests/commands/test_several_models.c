@@ -1,6 +1,6 @@
 /* Bodies with models of their own: a bar of cells (dlsm) beside a packing of spheres (cbm), each in its own place and
  * turned. What one simulation for each must give is known exactly: what the two scenes give alone. */
-#include "support.h"
+#include "several_models.h"
 #include "../../host/base/file.h"
 #include "../../host/base/memory.h"
 #include "../../host/commands/run_scene.h"
@@ -13,53 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define MATERIALS                                                                                                      \
-    "version: 1\nmaterials:\n  glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}\n"                                   \
-    "  steel: {E: 200 GPa, nu: 0.3, density: 7800 kg/m^3, beam: {radius: 0.5, E: 500 GPa}}\n"
-#define CELLS                                                                                                          \
-    "  - name: bar\n    shape:\n      box: {size: [40 mm, 20 mm, 20 mm]}\n"                                            \
-    "    fill:\n      noisy_grid: {cells: [8, 4, 4], spread: 50 %, seed: 3}\n    material: glass\n"                    \
-    "    pose: {translation: [0, 30 mm, 0], rotation: [0, 0, 30 deg]}\n"
-#define SPHERES                                                                                                        \
-    "  - name: ball\n    shape:\n      box: {size: [30 mm, 20 mm, 20 mm]}\n"                                           \
-    "    fill:\n      packing: {elements: 150, seed: 2}\n    material: steel\n    beams: 9\n"                          \
-    "    pose: {translation: [0, -40 mm, 0], rotation: [0, 20 deg, 0]}\n"
-#define BOTH MATERIALS "bodies:\n" CELLS "    model: dlsm\n" SPHERES "    model: cbm\n"
-#define ALONE_CELLS MATERIALS "model: dlsm\nbodies:\n" CELLS
-#define ALONE_SPHERES MATERIALS "model: cbm\nbodies:\n" SPHERES
-#define UPPER_SET "  upper:\n    elements:\n      half_space: {point: [0, 5 mm, 0], normal: [0, 1, 0]}\n"
-#define LOWER_SET "  lower:\n    elements:\n      half_space: {point: [0, 5 mm, 0], normal: [0, -1, 0]}\n"
-#define ENDS "  left:\n    elements: {wall: x-}\n  right:\n    elements: {wall: x+}\n"
-#define ALL_SET "  everything:\n    elements:\n      box: {from: [-1 m, -1 m, -1 m], to: [1 m, 1 m, 1 m]}\n"
-#define QUIET "output:\n  frames: none\n  picture: false\n"
-
-/* Fifty steps of 20 ns after a spin and a random push: half the critical step of the cells. */
-#define SPIN                                                                                                           \
-    "stages:\n  - name: fly\n    initial:\n      - spin: {angular_velocity: [0, 0, 100 rad/s]}\n"                      \
-    "      - random: {amplitude: [1 m/s, 1 m/s, 1 m/s], seed: 5}\n"                                                    \
-    "    solver:\n      dynamic: {steps: 50, time_step: 20 ns}\n"
-
-static brc_context *context;
-
-static int begin(void **state)
-{
-    (void)state;
-    context = brc_context_create();
-    return context ? 0 : -1;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    brc_context_free(&context);
-    return 0;
-}
-
-static void must(brc_status status)
-{
-    if (status != BRC_OK) fail_msg("%s", brc_context_message(context));
-}
 
 static void says(const char *part)
 {
@@ -484,13 +437,6 @@ static brc_status interrupt_at_first_increment(void *self, brc_simulation *simul
     return BRC_OK;
 }
 
-static brc_status interrupt(void *self, brc_simulation *simulation)
-{
-    (void)self;
-    brc_simulation_interrupt(simulation);
-    return BRC_OK;
-}
-
 /* Asked while the first increment is sampled: the second part stops in its next one, though it was the first that was
  * asked. */
 static void an_interrupt_reaches_every_part(void **state)
@@ -511,200 +457,6 @@ static void an_interrupt_reaches_every_part(void **state)
     release(&s);
 }
 
-/* ---- results ---- */
-
-static char folder[] = "/tmp/breccia-several-XXXXXX";
-
-static double *read_cells(const char *run, const char *name, int64_t first, int64_t n, int64_t columns)
-{
-    char path[512];
-    double *out;
-    brc_h5_read h5;
-    snprintf(path, sizeof path, "%s/%s/frames/000001.vtkhdf", folder, run);
-    must(brc_h5_read_open(context, path, &h5));
-    snprintf(path, sizeof path, "VTKHDF/CellData/%s", name);
-    must(BRC_ALLOCATE(context, &out, n * columns, "test"));
-    must(brc_h5_read_rows(&h5, path, H5T_NATIVE_DOUBLE, first, n, out));
-    brc_h5_read_close(&h5);
-    return out;
-}
-
-static brc_status record(const char *text, const char *name, bool stop, brc_run_results *out)
-{
-    char path[512];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    const brc_run_request request = {.path = "test",
-                                     .text = text,
-                                     .text_bytes = strlen(text),
-                                     .folder = path,
-                                     .device = "cpu",
-                                     .n_threads = 1,
-                                     .created = stop ? interrupt : NULL};
-    return brc_run_scene(context, &request, out);
-}
-
-static char *summary_of(const char *name)
-{
-    char path[512], *text;
-    snprintf(path, sizeof path, "%s/%s/summary.json", folder, name);
-    must(BRC_ALLOCATE(context, &text, 1 << 20, "test"));
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    assert_true(fread(text, 1, (1 << 20) - 1, file) > 0);
-    fclose(file);
-    return text;
-}
-
-static double last_of(const char *summary, const char *sensor)
-{
-    char key[96];
-    snprintf(key, sizeof key, "\"%s\": {", sensor);
-    const char *at = strstr(strstr(summary, "\"sensors\""), key);
-    assert_non_null(at);
-    return strtod(strstr(at, "\"last\": ") + strlen("\"last\": "), NULL);
-}
-
-#define PULL                                                                                                           \
-    "sets:\n" ENDS "stages:\n  - name: pull\n    solver:\n      static: {increments: 1}\n    loads:\n"                 \
-    "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - element_displacement: {set: right, x: 1 "    \
-    "um}\n"
-#define SENSORS                                                                                                        \
-    "sensors:\n  force:\n    reaction: {set: right, component: x}\n  elastic:\n    energy: elastic\n"                  \
-    "  tip:\n    point: {point: [20 mm, 60 mm, 10 mm], component: x}\n"
-
-static void one_folder_of_results_holds_both_models(void **state)
-{
-    (void)state;
-    static const char *const field[] = {"displacement", "velocity", "stress", "strain", "von_mises", "position"};
-    static const int columns[] = {3, 3, 6, 6, 1, 3};
-    brc_run_results both, alone[2];
-    assert_non_null(mkdtemp(folder));
-    must(record(BOTH PULL SENSORS, "both", false, &both));
-    must(record(ALONE_CELLS PULL SENSORS, "cells", false, &alone[0]));
-    must(record(ALONE_SPHERES PULL SENSORS, "spheres", false, &alone[1]));
-    assert_int_equal(both.n_elements, alone[0].n_elements + alone[1].n_elements);
-    assert_int_equal(both.n_bonds, alone[0].n_bonds + alone[1].n_bonds);
-    for (size_t f = 0; f < sizeof field / sizeof *field; ++f)
-        for (int k = 0; k < 2; ++k) {
-            const int64_t n = alone[k].n_elements, first = k == 0 ? 0 : alone[0].n_elements;
-            double *a = read_cells("both", field[f], first, n, columns[f]),
-                   *b = read_cells(k == 0 ? "cells" : "spheres", field[f], 0, n, columns[f]);
-            assert_memory_equal(a, b, (size_t)(n * columns[f]) * sizeof *a);
-            brc_memory_free(a);
-            brc_memory_free(b);
-        }
-    double *body = read_cells("both", "body", 0, both.n_elements, 1),
-           *model = read_cells("both", "model", 0, both.n_elements, 1),
-           *id = read_cells("both", "element_id", 0, both.n_elements, 1);
-    for (int64_t e = 0; e < both.n_elements; ++e) {
-        assert_true(body[e] == (e >= alone[0].n_elements) && model[e] == body[e]);
-        assert_true(id[e] == (double)e);
-    }
-    brc_memory_free(body);
-    brc_memory_free(model);
-    brc_memory_free(id);
-    char *text = summary_of("both"), *part[2] = {summary_of("cells"), summary_of("spheres")};
-    assert_non_null(strstr(text, "\"model\": \"dlsm, cbm\""));
-    assert_non_null(strstr(text, "\"parts\": ["));
-    assert_non_null(strstr(text, "\"beams and element rotations (cbm)\""));
-    assert_non_null(strstr(text, "\"status\": \"done\""));
-    /* sums of two numbers that the files hold to the last digit */
-    assert_true(last_of(text, "force") == last_of(part[0], "force") + last_of(part[1], "force"));
-    assert_true(last_of(text, "elastic") == last_of(part[0], "elastic") + last_of(part[1], "elastic"));
-    assert_true(last_of(text, "tip") == last_of(part[0], "tip")); /* nearest to the bar */
-    assert_true(both.ledger.work == alone[0].ledger.work + alone[1].ledger.work);
-    /* errors add and so do the energies they are measured by, but for which of them (elastic, work) is the larger: the
-     * same to the error itself */
-    assert_true(fabs(both.ledger.closure) <= 1.01 * fmax(fabs(alone[0].ledger.closure), fabs(alone[1].ledger.closure)));
-    brc_memory_free(text);
-    for (int k = 0; k < 2; ++k) {
-        brc_memory_free(part[k]);
-        brc_run_results_free(&alone[k]);
-    }
-    for (int f = 0; f < 5; ++f)
-        if (f != 2) assert_non_null(both.file[f]); /* all but histories are looked at here */
-    brc_run_results_free(&both);
-}
-
-static void assert_same_file(const char *a, const char *b, const char *name)
-{
-    char path[2][512], command[1200];
-    snprintf(path[0], sizeof path[0], "%s/%s/%s", folder, a, name);
-    snprintf(path[1], sizeof path[1], "%s/%s/%s", folder, b, name);
-    snprintf(command, sizeof command, "cmp '%s' '%s'", path[0], path[1]);
-    assert_int_equal(system(command), 0);
-}
-
-/* Whether the scene or its only body names the model is the same run, byte for byte. */
-static void one_model_gives_the_same_bytes_wherever_it_is_written(void **state)
-{
-    (void)state;
-    brc_run_results out[2];
-    must(record(ALONE_SPHERES PULL SENSORS, "above", false, &out[0]));
-    must(record(MATERIALS "bodies:\n" SPHERES "    model: cbm\n" PULL SENSORS, "within", false, &out[1]));
-    assert_same_file("above", "within", "frames/000000.vtkhdf");
-    assert_same_file("above", "within", "frames/000001.vtkhdf");
-    assert_same_file("above", "within", "histories.csv");
-    assert_same_file("above", "within", "picture.png");
-    for (int k = 0; k < 2; ++k)
-        brc_run_results_free(&out[k]);
-}
-
-static void a_run_that_fails_at_once_names_the_models_it_was_asked_for(void **state)
-{
-    (void)state;
-    brc_run_results out;
-    assert_int_equal(record(BOTH
-                            "sets:\n  far:\n    elements:\n      sphere: {centre: [1 km, 0, 0], radius: 1 m}\n" SPIN,
-                            "failed", false, &out),
-                     BRC_BAD_INPUT);
-    brc_context_clear(context);
-    char *text = summary_of("failed");
-    assert_non_null(strstr(text, "\"model\": \"dlsm, cbm\""));
-    assert_non_null(strstr(text, "\"status\": \"bad_input\""));
-    assert_null(strstr(text, "\"parts\""));
-    brc_memory_free(text);
-    brc_run_results_free(&out);
-}
-
-static void an_interrupt_stops_both_and_keeps_the_results(void **state)
-{
-    (void)state;
-    brc_run_results out;
-    assert_int_equal(record(BOTH "sets:\n" ENDS SPIN SENSORS, "stopped", true, &out), BRC_INTERRUPTED);
-    brc_context_clear(context);
-    assert_int_equal(out.steps, 1); /* every step is sampled, and the signal is looked at after each batch */
-    char *text = summary_of("stopped");
-    assert_non_null(strstr(text, "\"status\": \"interrupted\""));
-    brc_memory_free(text);
-    brc_run_results_free(&out);
-}
-
-static void export_check_and_build_know_both_models(void **state)
-{
-    (void)state;
-    char arguments[1024], path[512];
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
-    must(brc_file_write_whole(context, path, BOTH PULL SENSORS, strlen(BOTH PULL SENSORS)));
-    snprintf(arguments, sizeof arguments, "export %s/both --format vtu", folder);
-    assert_int_equal(test_program(arguments), 0);
-    snprintf(arguments, sizeof arguments, "export %s/both --format csv", folder);
-    assert_int_equal(test_program(arguments), 0);
-    snprintf(arguments, sizeof arguments, "check %s/scene.yaml --all --device cpu --threads 1", folder);
-    assert_int_equal(test_program(arguments), 0);
-    assert_non_null(strstr(test_program_stdout(), "model cbm: 150 elements"));
-    assert_non_null(strstr(test_program_stdout(), "effects in with dlsm: conservative elasticity (dlsm)"));
-    assert_non_null(strstr(test_program_stdout(), "effects in with cbm: beams and element rotations (cbm)"));
-    snprintf(arguments, sizeof arguments, "build %s/scene.yaml -o %s/d.h5 --threads 1", folder, folder);
-    assert_int_equal(test_program(arguments), 0);
-    snprintf(path, sizeof path, "%s/d-dlsm.h5", folder);
-    assert_true(brc_file_exists(path));
-    snprintf(path, sizeof path, "%s/d-cbm.h5", folder);
-    assert_true(brc_file_exists(path));
-    snprintf(arguments, sizeof arguments, "rm -r '%s'", folder);
-    assert_int_equal(system(arguments), 0);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -719,12 +471,7 @@ int main(void)
         cmocka_unit_test(what_no_model_can_do_is_refused),
         cmocka_unit_test(a_part_that_runs_away_names_its_model),
         cmocka_unit_test(broken_bonds_of_both_are_one_stream_by_step),
-        cmocka_unit_test(one_folder_of_results_holds_both_models),
-        cmocka_unit_test(one_model_gives_the_same_bytes_wherever_it_is_written),
-        cmocka_unit_test(a_run_that_fails_at_once_names_the_models_it_was_asked_for),
         cmocka_unit_test(an_interrupt_reaches_every_part),
-        cmocka_unit_test(an_interrupt_stops_both_and_keeps_the_results),
-        cmocka_unit_test(export_check_and_build_know_both_models),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

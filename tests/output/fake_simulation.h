@@ -6,8 +6,8 @@
 #include "../../host/solver/effects/guard.h"
 #include "../../host/base/memory.h"
 #include "../../host/solver/effects/fracture/fragments.h"
-#include "../../host/solver/run/phases.h"
-#include "../../host/solver/run/regime.h"
+#include "../../host/solver/core/phases.h"
+#include "../../host/solver/core/regime.h"
 #include "../../host/solver/run/stage_end.h"
 #include "../../host/solver/effects/strikers/strikers.h"
 #include <math.h>

@@ -4,7 +4,7 @@
 
 #include "../../host/scene/scene_reader.h"
 #include "../../host/solver/effects/fracture/fracture.h"
-#include "../../host/solver/run/simulation.h"
+#include "../../host/solver/simulation.h"
 // clang-format off
 #include <stdarg.h>
 #include <stddef.h>

@@ -8,10 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double START = 0.8; /* of the first failure, which comes at 0.75 to 0.9 of the peak */
-static const double END = 0.8;   /* of the peak: the crack has found its place; below it nothing rises again */
-static const double LONGEST = 3; /* times the expected strain */
-static const int EVERY = 5;      /* steps between two looks at the load: a passage of a wave takes 40 to 90 */
+static const double START = 0.8;    /* of the first failure, which comes at 0.75 to 0.9 of the peak */
+static const double END = 0.8;      /* of the peak: the crack has found its place; below it nothing rises again */
+static const double LONGEST = 3;    /* times the expected strain */
+static const double DENSITY = 2500; /* sets the unit of time, nothing else */
+static const int EVERY = 5;         /* steps between two looks at the load: a passage of a wave takes 40 to 90 */
 
 static const char *const walls[3][2] = {{"x-", "x+"}, {"y-", "y+"}, {"z-", "z+"}};
 
@@ -79,10 +80,83 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stag
     return stage == 0 ? after_static(self, simulation) : BRC_OK;
 }
 
+/* The scene of a sample that is pulled, and what its parts point to. */
+typedef struct pulled {
+    brc_material material;
+    brc_body body;
+    brc_load strains[2], speeds[2];
+    brc_initial initial;
+    brc_stage stages[2];
+    brc_scene scene;
+} pulled;
+
+static void pull_walls(const test *t, const brc_domain *domain, double nu, pulled *p)
+{
+    const int axis = t->pull->axis;
+    for (int side = 0; side < 2; ++side) {
+        p->strains[side].kind = BRC_LOAD_ELEMENT_DISPLACEMENT;
+        p->speeds[side].kind = BRC_LOAD_ELEMENT_VELOCITY;
+        snprintf(p->strains[side].set, sizeof p->strains[side].set, "%s", walls[axis][side]);
+        snprintf(p->speeds[side].set, sizeof p->speeds[side].set, "%s", walls[axis][side]);
+        p->strains[side].component[axis] = p->speeds[side].component[axis] = true;
+        p->strains[side].value[axis] = (side ? 0.5 : -0.5) * t->strain * t->length;
+        p->speeds[side].value[axis] = (side ? 0.5 : -0.5) * t->rate * t->length;
+    }
+    p->initial.kind = BRC_INITIAL_VELOCITY;
+    for (int c = 0; c < 3; ++c) {
+        p->initial.gradient[c][c] = c == axis ? t->rate : -nu * t->rate;
+        p->initial.origin[c] = (domain->bounds[0][c] + domain->bounds[1][c]) / 2;
+    }
+}
+
+/* Strained to half the expected strength at rest, then pulled. */
+static void describe(const test *t, const brc_domain *domain, double young, double nu, pulled *p)
+{
+    const brc_strength_pull *pull = t->pull;
+    *p = (pulled){
+        .material = {.name = "unit",
+                     .young = young,
+                     .poisson = nu,
+                     .density = DENSITY,
+                     .beam_radius = pull->radius,
+                     .beam_young = pull->beam_young,
+                     .beam_strength = pull->limit},
+        .body = {.name = "sample"},
+        .stages = {{.name = "load",
+                    .solver = BRC_SOLVER_STATIC,
+                    .n_loads = 2,
+                    .loads = p->strains,
+                    .tolerance = 1e-6,
+                    .increments = 1,
+                    .to_failure = START},
+                   {.name = "pull",
+                    .solver = BRC_SOLVER_DYNAMIC,
+                    .n_loads = 2,
+                    .loads = p->speeds,
+                    .n_initials = 1,
+                    .initials = &p->initial,
+                    .phi = 1,
+                    .safety = 0.8,
+                    .duration = LONGEST * t->expected / t->rate}},
+        .scene = {.version = 1,
+                  .folder = ".",
+                  .n_materials = 1,
+                  .materials = &p->material,
+                  .model = {.kind = brc_model_of_beams(), .beam_poisson = pull->beam_poisson, .keep_isolated = true},
+                  .has_fracture = true,
+                  .fracture = {.kind = BRC_CRITERION_PRINCIPAL, .level = 1},
+                  .n_bodies = 1,
+                  .bodies = &p->body,
+                  .n_stages = 2,
+                  .stages = p->stages,
+                  .output = {.n_frames = -1}}};
+    pull_walls(t, domain, nu, p);
+}
+
 brc_status brc_strength_test(brc_context *context, brc_device *device, const brc_domain *domain,
                              const brc_strength_pull *pull, brc_strength_answer *out)
 {
-    const double begun = brc_clock_s(), density = 2500; /* sets the unit of time, nothing else */
+    const double begun = brc_clock_s();
     const int axis = pull->axis;
     const double coordination = domain->quality.coordination_mean;
     const brc_beam_law *elastic = brc_beam_law_for(pull->radius_spread);
@@ -94,6 +168,7 @@ brc_status brc_strength_test(brc_context *context, brc_device *device, const brc
               .length = domain->bounds[1][axis] - domain->bounds[0][axis]};
     brc_simulation *simulation = NULL;
     brc_status status = BRC_OK;
+    pulled p;
     memset(out, 0, sizeof *out);
     t.section = brc_sphere_box_section(domain, t.wall);
     if (!(t.section > 0))
@@ -102,60 +177,10 @@ brc_status brc_strength_test(brc_context *context, brc_device *device, const brc
             "fracture test: the sample has no wall '%s' or no walls beside it; expected spheres packed into one box",
             walls[axis][1]);
     t.expected = brc_strength_law_ratio(brc_strength_law_published(), coordination, pull->radius) * pull->limit / young;
-    t.rate = t.expected * sqrt(young / density) / (pull->passages * t.length);
-
-    brc_material material = {.name = "unit",
-                             .young = young,
-                             .poisson = nu,
-                             .density = density,
-                             .beam_radius = pull->radius,
-                             .beam_young = pull->beam_young,
-                             .beam_strength = pull->limit};
-    brc_body body = {.name = "sample"};
-    brc_load strains[2] = {{.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}, {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}};
-    brc_load speeds[2] = {{.kind = BRC_LOAD_ELEMENT_VELOCITY}, {.kind = BRC_LOAD_ELEMENT_VELOCITY}};
-    brc_initial initial = {.kind = BRC_INITIAL_VELOCITY};
+    t.rate = t.expected * sqrt(young / DENSITY) / (pull->passages * t.length);
     t.strain = 0.5 * t.expected; /* the solver scales it */
-    for (int side = 0; side < 2; ++side) {
-        snprintf(strains[side].set, sizeof strains[side].set, "%s", walls[axis][side]);
-        snprintf(speeds[side].set, sizeof speeds[side].set, "%s", walls[axis][side]);
-        strains[side].component[axis] = speeds[side].component[axis] = true;
-        strains[side].value[axis] = (side ? 0.5 : -0.5) * t.strain * t.length;
-        speeds[side].value[axis] = (side ? 0.5 : -0.5) * t.rate * t.length;
-    }
-    for (int c = 0; c < 3; ++c) {
-        initial.gradient[c][c] = c == axis ? t.rate : -nu * t.rate;
-        initial.origin[c] = (domain->bounds[0][c] + domain->bounds[1][c]) / 2;
-    }
-    brc_stage stages[2] = {{.name = "load",
-                            .solver = BRC_SOLVER_STATIC,
-                            .n_loads = 2,
-                            .loads = strains,
-                            .tolerance = 1e-6,
-                            .increments = 1,
-                            .to_failure = START},
-                           {.name = "pull",
-                            .solver = BRC_SOLVER_DYNAMIC,
-                            .n_loads = 2,
-                            .loads = speeds,
-                            .n_initials = 1,
-                            .initials = &initial,
-                            .phi = 1,
-                            .safety = 0.8,
-                            .duration = LONGEST * t.expected / t.rate}};
-    brc_scene scene = {.version = 1,
-                       .folder = ".",
-                       .n_materials = 1,
-                       .materials = &material,
-                       .model = {.kind = BRC_MODEL_CBM, .beam_poisson = pull->beam_poisson, .keep_isolated = true},
-                       .has_fracture = true,
-                       .fracture = {.kind = BRC_CRITERION_PRINCIPAL, .level = 1},
-                       .n_bodies = 1,
-                       .bodies = &body,
-                       .n_stages = 2,
-                       .stages = stages,
-                       .output = {.n_frames = -1}};
-    BRC_TRY_OR(cleanup, brc_simulation_create(context, &scene, domain, device, &simulation));
+    describe(&t, domain, young, nu, &p);
+    BRC_TRY_OR(cleanup, brc_simulation_create(context, &p.scene, domain, device, &simulation));
     BRC_TRY_OR(cleanup,
                brc_simulation_observe(simulation,
                                       &(brc_observer){.self = &t, .stage_begin = stage_begin, .stage_end = stage_end}));

@@ -8,7 +8,7 @@
 #include "../../output/recorder.h"
 #include "../../solver/effects/fracture/fracture.h"
 #include "../../solver/run/lockstep.h"
-#include "../../solver/run/patience.h"
+#include "../../solver/core/trial_budget.h"
 #include "../../solver/run/stage_end.h"
 #include <math.h>
 

@@ -10,7 +10,7 @@
 #include "../../output/checkpoint/checkpoint.h"
 #include "../../solver/effects/fracture/fracture.h"
 #include "../../solver/run/lockstep.h"
-#include "../../solver/run/patience.h"
+#include "../../solver/core/trial_budget.h"
 #include "../../solver/run/stage_end.h"
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "../../base/file.h"
 #include "../../base/memory.h"
 #include "../../output/pictures/gnuplot.h"
-#include "../../solver/effects/loads/loaded_faces.h"
+#include "../../solver/core/loaded_faces.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef BRC_OUTPUT_CHECKPOINT_STORE_H
 #define BRC_OUTPUT_CHECKPOINT_STORE_H
 
-#include "../../solver/run/state_store.h"
+#include "../../solver/core/state_store.h"
 #include "../h5.h"
 #include "../h5_read.h"
 

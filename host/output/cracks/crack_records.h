@@ -5,7 +5,7 @@
 
 #include "crack_report.h"
 #include "fragments_file.h"
-#include "../../solver/run/state_store.h"
+#include "../../solver/core/state_store.h"
 
 typedef struct brc_crack_records brc_crack_records;
 

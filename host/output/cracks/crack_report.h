@@ -3,7 +3,7 @@
 #define BRC_OUTPUT_CRACK_REPORT_H
 
 #include "../../solver/effects/fracture/fragments.h"
-#include "../../solver/run/regime.h"
+#include "../../solver/core/regime.h"
 #include "crack_statistics.h"
 #include "cracks.h"
 

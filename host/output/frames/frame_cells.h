@@ -5,7 +5,7 @@
 
 #include "../../../preprocess/cells/tessellation.h"
 #include "../../solver/run/assembly.h"
-#include "../../solver/run/state_store.h"
+#include "../../solver/core/state_store.h"
 #include "../h5.h"
 
 /* Where the rows of one part stand among those of all. */

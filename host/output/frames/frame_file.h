@@ -3,7 +3,7 @@
 #define BRC_OUTPUT_FRAME_FILE_H
 
 #include "../../solver/run/assembly.h"
-#include "../../solver/run/state_store.h"
+#include "../../solver/core/state_store.h"
 
 #define BRC_FRAME_FORMAT_VERSION 2
 

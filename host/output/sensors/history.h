@@ -3,7 +3,7 @@
 #define BRC_OUTPUT_HISTORY_H
 
 #include "../../scene/scene.h"
-#include "../../solver/run/state_store.h"
+#include "../../solver/core/state_store.h"
 
 typedef struct brc_history {
     int32_t n_sensors;

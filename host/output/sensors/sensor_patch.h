@@ -3,7 +3,7 @@
 #define BRC_OUTPUT_SENSOR_PATCH_H
 
 #include "../../../preprocess/domain/domain.h"
-#include "../../solver/run/simulation.h"
+#include "../../solver/simulation.h"
 
 typedef struct brc_sensor_patch {
     int32_t set; /* index in the domain; -1: all elements, or the members are its own */

@@ -4,7 +4,7 @@
 
 #include "../../../preprocess/domain/domain.h"
 #include "../../scene/scene.h"
-#include "../../solver/run/simulation.h"
+#include "../../solver/simulation.h"
 
 typedef struct brc_sensors brc_sensors;
 

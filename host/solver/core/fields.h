@@ -116,7 +116,7 @@ void brc_fields_free(const brc_field_table *table, void *owner);
 /* The array of a field; NULL: not there. */
 brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner);
 
-/* ---- all tables (../run/field_tables.c) ---- */
+/* ---- all tables (field_tables.c) ---- */
 /* Bytes of all fields of a life. */
 int64_t brc_fields_planned(const brc_wants *wants, brc_field_life life);
 /* The k-th of all tables; NULL: there are no more. */

@@ -1,6 +1,6 @@
 /* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares,
  * masses. */
-#include "../run/simulation_internal.h"
+#include "simulation_internal.h"
 #include "sym3.h"
 #include <math.h>
 #include <string.h>

@@ -25,6 +25,13 @@ static bool tchamwa(const brc_wants *w)
 {
     return w->tchamwa;
 }
+static void ask_tchamwa(brc_wants *w, const int32_t *material)
+{
+    (void)material;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        w->tchamwa |=
+            w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC && w->scene->stages[i].integrator == BRC_TCHAMWA_WIELGOSZ;
+}
 static bool some_stage(const brc_wants *w, brc_solver_kind solver)
 {
     for (int32_t i = 0; i < w->scene->n_stages; ++i)
@@ -41,6 +48,7 @@ static bool modes(const brc_wants *w)
 }
 
 const brc_effect brc_several_materials_effect = {.name = "several materials", .in = many};
-const brc_effect brc_numerical_damping_effect = {.name = "numerical damping (Tchamwa-Wielgosz)", .in = tchamwa};
+const brc_effect brc_numerical_damping_effect = {
+    .name = "numerical damping (Tchamwa-Wielgosz)", .in = tchamwa, .ask = ask_tchamwa};
 const brc_effect brc_static_solver_effect = {.name = "static solver", .in = statics};
 const brc_effect brc_free_modes_effect = {.name = "free vibration modes", .in = modes};

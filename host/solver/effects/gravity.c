@@ -1,5 +1,5 @@
 /* Gravity: the weight of every element, and its potential. */
-#include "../run/simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include "effect.h"
 
 typedef struct brc_weights {

@@ -117,17 +117,18 @@ brc_status brc_guard_step(brc_simulation *s)
     return s->guard && s->step % s->guard->look_every == 0 ? look_at_elements(s) : BRC_OK;
 }
 
-int64_t brc_guard_next(const brc_simulation *s, int64_t step)
+static int64_t next_reading(const brc_simulation *s, int64_t step)
 {
     const int64_t every = s->guard->report.every;
     return (step / every + 1) * every;
 }
 
-brc_status brc_guard_store_looks(brc_simulation *s, struct brc_state_store *store)
+/* The looks so far that were not read yet. */
+static brc_status stretch(brc_simulation *s, const brc_occasion *now)
 {
     if (!s->guard) return BRC_OK;
-    BRC_TRY(store->field(store, s->guard->first));
-    return store->field(store, s->guard->when);
+    BRC_TRY(now->store->field(now->store, s->guard->first));
+    return now->store->field(now->store, s->guard->when);
 }
 
 /* The element found first, of equals the lowest; -1: none. *look: when. */
@@ -210,7 +211,7 @@ brc_status brc_guard_vouch(brc_simulation *s, bool several)
     return read_looks(s, several);
 }
 
-brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger)
+brc_status brc_guard_read(brc_simulation *s, bool several, const brc_ledger *ledger)
 {
     struct brc_guard_state *g = s->guard;
     int64_t element = -1;
@@ -220,8 +221,8 @@ brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger)
     BRC_TRY(read_looks(s, several));
     if (!ledger && s->step % g->report.ledger_every) return BRC_OK;
     g->report.ledgers += 1;
+    if (!ledger) BRC_TRY(brc_simulation_ledger(s, &own));
     if (!ledger) ledger = &own;
-    BRC_TRY(brc_simulation_ledger(s, ledger));
     const double put_in = fabs(ledger->initial) + fabs(ledger->work) + fabs(ledger->potential),
                  most = s->scene->guard.closure;
     if (!isfinite(ledger->total))
@@ -239,6 +240,16 @@ brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger)
                 isfinite(ledger->total) && ledger->total <= runaway * put_in ? ledger->closure : 0);
 }
 
-static const brc_hooked hooked[] = {{.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_CHECKS, .plain = brc_guard_step}};
-const brc_effect brc_guard_effect = {
-    .fields = (const brc_field_table *const[]){&brc_guard_fields, NULL}, .free = release, BRC_HOOKED(hooked)};
+static brc_status read_hooked(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_guard_read(s, now->several, now->ledger);
+}
+
+static const brc_hooked hooked[] = {{.hook = BRC_HOOK_STEPS, .plain = brc_guard_begin_stage},
+                                    {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_CHECKS, .plain = brc_guard_step},
+                                    {.hook = BRC_HOOK_READ, .call = read_hooked},
+                                    {.hook = BRC_HOOK_STRETCH, .call = stretch}};
+const brc_effect brc_guard_effect = {.fields = (const brc_field_table *const[]){&brc_guard_fields, NULL},
+                                     .free = release,
+                                     .next_reading = next_reading,
+                                     BRC_HOOKED(hooked)};

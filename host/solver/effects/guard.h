@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_GUARD_H
 #define BRC_SOLVER_GUARD_H
 
-#include "../run/simulation.h"
+#include "../simulation.h"
 
 /* How often it looked. Steps between reading what the device saw, and between ledgers; 0: no dynamic stage yet. */
 typedef struct brc_guard_report {
@@ -12,24 +12,16 @@ typedef struct brc_guard_report {
 } brc_guard_report;
 brc_guard_report brc_simulation_guard_report(const brc_simulation *simulation);
 /* Look at every element now and read what was found: before a state is kept as a good one. Nothing of the run changes.
- * BRC_PHYSICS_STOPPED as brc_guard_read; fine in stages that are not dynamic. */
+ * BRC_PHYSICS_STOPPED where something is wrong; fine in stages that are not dynamic. */
 brc_status brc_guard_vouch(brc_simulation *simulation, bool several);
 
-/* ---- for host/solver/run/dynamics.c ---- */
-
-/* Once the stage has its state: limits of this stage, and nothing found. */
+/* Once a stage has its state: limits of this stage, and nothing found. */
 brc_status brc_guard_begin_stage(brc_simulation *s);
 /* After a step: enqueues a look at the elements where one is due. Waits for nothing. */
 brc_status brc_guard_step(brc_simulation *s);
-/* Steps from `step` of the stage to the next reading. */
-int64_t brc_guard_next(const brc_simulation *s, int64_t step);
-/* Read what the looks found; at multiples of ledger_every, or with `ledger` not NULL, also the energy ledger.
- * BRC_PHYSICS_STOPPED with step, element, its bonds' last events and the likely cause; several: the run has several
- * models, and the sentence names this one. */
-brc_status brc_guard_read(brc_simulation *s, bool several, brc_ledger *ledger);
-
-struct brc_state_store;
-/* The looks so far that were not read yet, for a store of arrays on the device (state_store.h, `field`). */
-brc_status brc_guard_store_looks(brc_simulation *simulation, struct brc_state_store *store);
+/* Read what the looks found; at multiples of ledger_every, or where one was drawn up (else NULL), also the energy
+ * ledger. BRC_PHYSICS_STOPPED with step, element, its bonds' last events and the likely cause; several: the run has
+ * several models, and the sentence names this one. */
+brc_status brc_guard_read(brc_simulation *s, bool several, const brc_ledger *ledger);
 
 #endif

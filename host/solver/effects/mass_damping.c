@@ -1,5 +1,5 @@
 /* Mass damping: a drag in proportion to momentum. */
-#include "../run/simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include "effect.h"
 #include <math.h>
 
@@ -10,6 +10,12 @@ static bool in(const brc_wants *w)
     for (int32_t i = 0; i < w->scene->n_stages; ++i)
         if (w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC && w->scene->stages[i].mass_damping > 0) return true;
     return false;
+}
+
+static void ask(brc_wants *w, const int32_t *material)
+{
+    (void)material;
+    w->damping |= in(w);
 }
 
 static brc_status create(brc_simulation *s)
@@ -31,9 +37,10 @@ static bool due(const brc_simulation *s)
 static brc_status drag(brc_simulation *s, const brc_occasion *now)
 {
     const double factor = exp(-brc_current_stage(s)->mass_damping * now->dt);
-    BRC_TRY(brc_loads_zero_imposed(s, s->velocity));
+    BRC_TRY(brc_constrain(s, s->velocity, NULL));
     return BRC_RUN(*brc_effect_own(s, &brc_mass_damping_effect), s->layout->n_rows, {"factor", BRC_STATE(factor)});
 }
 
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_DRAG, .call = drag, .due = due}};
-const brc_effect brc_mass_damping_effect = {.name = "mass damping", .in = in, .create = create, BRC_HOOKED(hooked)};
+const brc_effect brc_mass_damping_effect = {
+    .name = "mass damping", .in = in, .ask = ask, .create = create, BRC_HOOKED(hooked)};

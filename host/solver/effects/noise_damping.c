@@ -18,6 +18,21 @@ static bool noise(const brc_wants *w)
     return w->noise;
 }
 
+static void ask(brc_wants *w, const int32_t *material)
+{
+    (void)material;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        w->noise |= asks(&w->scene->stages[i]);
+    w->damping |= w->noise;
+}
+
+/* It asks in every step. */
+static int64_t quiet_steps(const brc_simulation *s)
+{
+    (void)s;
+    return 0;
+}
+
 #define AT(member) BRC_FIELD_AT(struct brc_noise, member)
 static const brc_field_row rows[] = {
     {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(gradient), "gradients of velocities", "1/s", BRC_NOT_KEPT},
@@ -92,7 +107,7 @@ brc_status brc_noise_damp(brc_simulation *s)
     BRC_TRY(brc_pass_run(d->gradient_pass, s->n_groups));
     BRC_TRY(brc_pass_run(d->flux_pass, s->n_groups));
     BRC_TRY(brc_pass_run(d->force_pass, s->n_groups));
-    BRC_TRY(brc_loads_zero_imposed(s, d->force));
+    BRC_TRY(brc_constrain(s, d->force, NULL));
     return brc_pass_run(d->damp, n);
 }
 
@@ -100,6 +115,8 @@ static const brc_hooked hooked[] = {{.hook = BRC_HOOK_ENTERED, .plain = enter},
                                     {.hook = BRC_HOOK_WHOLE, .plain = brc_noise_damp, .due = due}};
 const brc_effect brc_noise_damping_effect = {.name = "noise damping",
                                              .in = noise,
+                                             .ask = ask,
+                                             .quiet_steps = quiet_steps,
                                              .fields = (const brc_field_table *const[]){&brc_noise_fields, NULL},
                                              .create = create,
                                              .free = release,

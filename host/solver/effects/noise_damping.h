@@ -9,7 +9,7 @@
 #ifndef BRC_SOLVER_NOISE_DAMPING_H
 #define BRC_SOLVER_NOISE_DAMPING_H
 
-#include "../run/simulation_internal.h"
+#include "../core/simulation_internal.h"
 
 /* One simulation has at most one. */
 struct brc_noise {

@@ -7,7 +7,7 @@
 #include "../../base/log.h"
 #include "../../base/memory.h"
 #include "beam_body.h"
-#include "../run/simulation.h"
+#include "../simulation.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -167,16 +167,17 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
                        .loads = loads,
                        .tolerance = pull->tolerance > 0 ? pull->tolerance : 1e-5,
                        .increments = 1};
-    brc_scene scene = {.version = 1,
-                       .folder = ".",
-                       .n_materials = 1,
-                       .materials = &material,
-                       .model = {.kind = BRC_MODEL_CBM, .beam_poisson = pull->beam_poisson, .keep_isolated = true},
-                       .n_bodies = 1,
-                       .bodies = &body,
-                       .n_stages = 1,
-                       .stages = &stage,
-                       .output = {.n_frames = -1}};
+    brc_scene scene = {
+        .version = 1,
+        .folder = ".",
+        .n_materials = 1,
+        .materials = &material,
+        .model = {.kind = brc_model_of_beams(), .beam_poisson = pull->beam_poisson, .keep_isolated = true},
+        .n_bodies = 1,
+        .bodies = &body,
+        .n_stages = 1,
+        .stages = &stage,
+        .output = {.n_frames = -1}};
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &displacement, 3 * domain->n_elements, "displacements"));
     BRC_TRY_OR(cleanup, brc_simulation_create(context, &scene, domain, device, &simulation));
     BRC_TRY_OR(cleanup, brc_simulation_run(simulation));

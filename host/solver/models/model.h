@@ -77,7 +77,7 @@ typedef struct brc_model_cohesion {
     brc_status (*refresh)(struct brc_simulation *s);                  /* and after energies were found */
     brc_status (*settle)(struct brc_simulation *s, const struct brc_ring_list *around); /* and shared out */
     brc_status (*stored)(struct brc_simulation *s, double *out); /* energy that broken bonds hold [J] */
-    /* Of what steps ahead of what is known change (run/ahead.h). */
+    /* Of what steps ahead of what is known change (effects/fracture/ahead.h). */
     brc_status (*store_ahead)(struct brc_simulation *s, struct brc_state_store *store);
 } brc_model_cohesion;
 
@@ -135,6 +135,9 @@ typedef struct brc_bond_model {
     brc_status (*energies)(struct brc_simulation *s, double *elastic, double *stabilisation);
     /* What surfaces reach by, of a state that was not evaluated; NULL: its motion says it. */
     brc_status (*refresh)(struct brc_simulation *s);
+    /* Of cells that may open against a cohesion: gradients, stresses and fluxes as the state has them, around a list or
+     * (NULL) of all; moved: gradients of ring 2 too. */
+    brc_status (*fluxes_of_state)(struct brc_simulation *s, const struct brc_ring_list *list, bool moved);
     double (*floor_bytes)(const struct brc_simulation *s); /* the least that a step must move */
 
     /* Of every element [n_elements][6] xx yy zz yz xz xy, each may be NULL; of faces [n][3]. */
@@ -153,6 +156,7 @@ typedef struct brc_bond_model {
      * those of the material. */
     brc_status (*create_fracture)(struct brc_simulation *s);
     brc_status (*break_bonds)(struct brc_simulation *s, double half_kick);
+    double (*bond_radius)(const struct brc_simulation *s, int64_t e); /* of element e's beams [m]; NULL: faces */
     brc_status (*limits)(struct brc_simulation *s, const brc_limit_case *of, double limit[3]);
     const brc_model_breaking *breaking; /* of cells; NULL: of spheres */
     const brc_model_cohesion *cohesion;

@@ -5,7 +5,7 @@
 #ifndef BRC_SOLVER_ASSEMBLY_H
 #define BRC_SOLVER_ASSEMBLY_H
 
-#include "phases.h"
+#include "../core/phases.h"
 #include "split.h"
 
 typedef struct brc_assembly {

@@ -1,9 +1,7 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
-#include "ahead.h"
-#include "../effects/fracture/fracture.h"
-#include "../effects/guard.h"
 #include "look.h"
-#include "simulation_internal.h"
+#include "motion.h"
+#include "../core/simulation_internal.h"
 #include "stage_end.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,21 +10,6 @@ enum { SAMPLES = 500, BATCH = 256 };
 /* Samples this far apart or further have a ledger each, a hundredth of the steps between them; nearer ones only where
  * something is judged by it. */
 enum { LEDGER_APART = 128 };
-
-/* Bodies that effects move, and rotations. */
-static brc_status turn(brc_simulation *s, const brc_occasion *now)
-{
-    BRC_TRY(brc_hook_run(s, BRC_HOOK_ADVANCE, now));
-    if (!s->model->turns) return BRC_OK;
-    return BRC_RUN(s->pass.advance_rotation, s->layout->n_rows, {"kick", BRC_STATE(now->kick)},
-                   {"drift", BRC_STATE(now->drift)}, {"extra", BRC_STATE(now->extra * now->drift)});
-}
-
-static brc_status kick_and_drift(brc_simulation *s, double kick, double drift)
-{
-    BRC_TRY(BRC_RUN(s->pass.advance, s->layout->n_rows, {"kick", BRC_STATE(kick)}, {"drift", BRC_STATE(drift)}));
-    return turn(s, &(brc_occasion){.kick = kick, .drift = drift});
-}
 
 static brc_status open_step(brc_simulation *s, double dt)
 {
@@ -51,11 +34,11 @@ static brc_status verlet_step(brc_simulation *s, double dt, double kick)
 {
     BRC_TRY(open_step(s, dt));
     if (brc_hook_is_due(s, BRC_HOOK_DRAG)) { /* in the middle of the drift: second order */
-        BRC_TRY(kick_and_drift(s, kick, 0.5 * dt));
+        BRC_TRY(brc_motion(s, kick, 0.5 * dt));
         BRC_TRY(brc_hook_run(s, BRC_HOOK_DRAG, &(brc_occasion){.dt = dt}));
-        BRC_TRY(kick_and_drift(s, 0, 0.5 * dt));
+        BRC_TRY(brc_motion(s, 0, 0.5 * dt));
     } else {
-        BRC_TRY(kick_and_drift(s, kick, dt));
+        BRC_TRY(brc_motion(s, kick, dt));
     }
     BRC_TRY(close_step(s, dt));
     return brc_hook_run(s, BRC_HOOK_BREAK, &(brc_occasion){.half_kick = 0.5 * dt});
@@ -68,21 +51,12 @@ static brc_status tchamwa_step(brc_simulation *s, double phi, double dt)
     BRC_TRY(BRC_RUN(s->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(phi)},
                     {"lost", BRC_BUF(s->lost_numerical)}));
     /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
-    BRC_TRY(turn(s, &(brc_occasion){.kick = dt, .drift = dt, .extra = (phi - 1) * dt, .numerical = true}));
+    BRC_TRY(brc_motion_turn(s, &(brc_occasion){.kick = dt, .drift = dt, .extra = (phi - 1) * dt, .numerical = true}));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_DRAG, &(brc_occasion){.dt = dt}));
     BRC_TRY(close_step(s, dt));
     BRC_TRY(BRC_RUN(s->pass.numerical_close, n, {"lost", BRC_BUF(s->lost_numerical)}));
     /* velocities are at whole steps already */
     return brc_hook_run(s, BRC_HOOK_BREAK, &(brc_occasion){.half_kick = 0});
-}
-
-brc_status brc_dynamics_close(brc_simulation *s)
-{
-    if (!s->open) return BRC_OK;
-    BRC_TRY(kick_and_drift(s, 0.5 * s->time_step.value, 0));
-    BRC_TRY(brc_hook_run(s, BRC_HOOK_CLOSE, &(brc_occasion){.t = s->time}));
-    s->open = false;
-    return BRC_OK;
 }
 
 static brc_status take_steps(brc_simulation *s, int64_t n_steps, bool close)
@@ -108,12 +82,13 @@ static brc_status advance(brc_simulation *s, int64_t n_steps, bool close)
 {
     if (n_steps <= 0) return BRC_OK;
     const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_MOTION);
+    const brc_effect_ahead *ahead = brc_effects_ahead(s);
     for (int64_t left = n_steps; left > 0;) {
-        const int64_t ahead = brc_ahead_steps(s, left), n = ahead > 0 ? ahead : 1;
+        const int64_t stretch = ahead ? ahead->steps(s, left) : 0, n = stretch > 0 ? stretch : 1;
         bool stands = true;
-        if (ahead > 0) BRC_TRY(brc_ahead_begin(s));
+        if (stretch > 0) BRC_TRY(ahead->begin(s));
         BRC_TRY(take_steps(s, n, close && n == left));
-        if (ahead > 0) BRC_TRY(brc_ahead_end(s, &stands));
+        if (stretch > 0) BRC_TRY(ahead->end(s, &stands));
         if (stands) left -= n;
     }
     brc_phase_enter(s, before);
@@ -159,36 +134,40 @@ static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_
     return BRC_OK;
 }
 
-/* Kinetic and elastic energy of all parts together [J] and their broken bonds, after the guard of each. */
+/* Kinetic and elastic energy of all parts together [J] and their broken bonds. */
 typedef struct moment {
     double kinetic, elastic;
     int64_t broken;
 } moment;
 
-static brc_status guard_all(int32_t n, brc_simulation *const *part, moment *now)
+static bool breaks(const brc_simulation *s)
+{
+    return brc_hook_is_due(s, BRC_HOOK_BROKEN);
+}
+
+static brc_status draw_up(int32_t n, brc_simulation *const *part, moment *now)
 {
     *now = (moment){0};
     for (int32_t k = 0; k < n; ++k) {
         brc_ledger ledger;
-        int64_t broken;
         brc_phase_enter(part[k], BRC_PHASE_LEDGER);
-        BRC_TRY(brc_guard_read(part[k], n > 1, &ledger));
-        BRC_TRY(brc_simulation_broken(part[k], &broken));
+        BRC_TRY(brc_simulation_ledger(part[k], &ledger));
+        BRC_TRY(brc_hook_run(part[k], BRC_HOOK_READ, &(brc_occasion){.several = n > 1, .ledger = &ledger}));
+        BRC_TRY(brc_hook_run(part[k], BRC_HOOK_BROKEN, &(brc_occasion){.count = &now->broken}));
         now->kinetic += ledger.kinetic;
         now->elastic += ledger.elastic;
-        now->broken += broken;
         brc_phase_enter(part[k], BRC_PHASE_NONE);
     }
-    if (part[0]->fracture) brc_regime_follow(&part[0]->regime, now->kinetic, now->elastic, now->broken > 0);
+    if (breaks(part[0])) brc_regime_follow(&part[0]->regime, now->kinetic, now->elastic, now->broken > 0);
     return BRC_OK;
 }
 
-/* What the looks at the elements found, and what is due of the ledger. */
-static brc_status read_guards(int32_t n, brc_simulation *const *part)
+/* What was seen on the device. */
+static brc_status read_all(int32_t n, brc_simulation *const *part)
 {
     for (int32_t k = 0; k < n; ++k) {
         brc_phase_enter(part[k], BRC_PHASE_LEDGER);
-        BRC_TRY(brc_guard_read(part[k], n > 1, NULL));
+        BRC_TRY(brc_hook_run(part[k], BRC_HOOK_READ, &(brc_occasion){.several = n > 1}));
         brc_phase_enter(part[k], BRC_PHASE_NONE);
     }
     return BRC_OK;
@@ -222,12 +201,12 @@ static void tell_regime(const brc_simulation *s, const brc_regime *before)
             brc_regime_name(r), 100 * r->at_first_break, 100 * fmax(r->until_peak, r->at_peak));
 }
 
-/* Steps until the next sample, frame, look of the guard or the end, at most a batch: short batches keep the progress
+/* Steps until the next sample, frame, reading or the end, at most a batch: short batches keep the progress
  * line and signals alive. Where they end depends on the step alone, since every end costs the velocities a rounding: a
  * run that goes on from one of them later is the same run. */
 static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_every, int64_t total)
 {
-    const int64_t step = s->step, look = brc_guard_next(s, step);
+    const int64_t step = s->step, look = brc_effects_next_reading(s, step);
     int64_t until = next_multiple(step, every);
     if (frame_every && next_multiple(step, frame_every) < until) until = next_multiple(step, frame_every);
     if (look < until) until = look;
@@ -236,23 +215,23 @@ static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_
     return until - step < most ? until - step : most;
 }
 
-/* Looks of the guard, samples and frames of this step, if it is one of theirs. */
+/* Readings, samples and frames of this step, if it is one of theirs. */
 static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds, int64_t every, int64_t frame_every,
                           int64_t total)
 {
     brc_simulation *s = part[0];
     const brc_stage *stage = brc_current_stage(s);
     const bool sampled = s->step % every == 0 || s->step == total || s->note[s->stage].ended,
-               judged = s->fracture || stage->stop_kinetic > 0 || stage->stop_broken > 0;
+               judged = breaks(s) || stage->stop_kinetic > 0 || stage->stop_broken > 0;
     if (sampled && (judged || every >= LEDGER_APART || s->step == total || s->note[s->stage].ended)) {
         moment now;
-        BRC_TRY(guard_all(n, part, &now));
+        BRC_TRY(draw_up(n, part, &now));
         const bool calm = now.kinetic <= stage->stop_kinetic * now.elastic;
         s->progress.calm_steps = calm ? s->progress.calm_steps + (s->step - s->progress.judged_step) : 0;
         s->progress.judged_step = s->step;
         judge(s, &now, n_bonds, s->progress.calm_steps);
-    } else if (sampled || brc_guard_next(s, s->step - 1) == s->step) {
-        BRC_TRY(read_guards(n, part));
+    } else if (sampled || brc_effects_next_reading(s, s->step - 1) == s->step) {
+        BRC_TRY(read_all(n, part));
     }
     if (sampled) BRC_TRY(brc_notify_sample(s));
     return frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended
@@ -281,10 +260,10 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
     BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total - first, "steps", n_bonds, "bond updates/s"));
     const brc_regime before = s->regime;
     for (int32_t k = 0; k < n; ++k)
-        BRC_TRY_OR(cleanup, brc_guard_begin_stage(part[k]));
+        BRC_TRY_OR(cleanup, brc_hook_run(part[k], BRC_HOOK_STEPS, NULL));
     if (!resumed) {
         moment now;
-        if (s->fracture) BRC_TRY_OR(cleanup, guard_all(n, part, &now));
+        if (breaks(s)) BRC_TRY_OR(cleanup, draw_up(n, part, &now));
         BRC_TRY_OR(cleanup, brc_notify_sample(s));
     }
     while (s->step < total && !s->note[s->stage].ended) {

@@ -1,7 +1,7 @@
 /* Initial fields of a stage, added to the state. */
 #include "../../base/file.h"
 #include "../../base/random.h"
-#include "simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include <hdf5.h>
 #include <math.h>
 #include <string.h>

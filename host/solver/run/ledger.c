@@ -1,6 +1,6 @@
 /* The energy ledger (docs/notebook/theory.md T4): its terms are named once; closure is relative to the largest
  * energy. */
-#include "simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include <math.h>
 #include <string.h>
 

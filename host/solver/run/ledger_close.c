@@ -1,5 +1,5 @@
 /* What a ledger's terms come to. */
-#include "simulation.h"
+#include "../simulation.h"
 #include <math.h>
 
 void brc_ledger_close(brc_ledger *l)

@@ -1,7 +1,7 @@
 /* Running the stages of a scene: one simulation, or one for each of its models with one clock. The first part keeps the
  * clock, is the one that is interrupted, and its observers hear of the whole. */
 #include "lockstep.h"
-#include "simulation_internal.h"
+#include "../core/simulation_internal.h"
 
 /* All parts take the shortest of their steps. */
 static void share_time_step(int32_t n, brc_simulation *const *part)

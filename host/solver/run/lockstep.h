@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_LOCKSTEP_H
 #define BRC_SOLVER_LOCKSTEP_H
 
-#include "state_store.h"
+#include "../core/state_store.h"
 
 /* Enter the stage with all n parts; in a dynamic one they then share the shortest of their time steps. */
 brc_status brc_lockstep_begin_stage(int32_t n, brc_simulation *const *part, int32_t stage);

@@ -1,47 +1,33 @@
 /* Looks: who wants one, and what is put back after it. */
 #include "look.h"
-#include "../effects/contact/contact_internal.h"
-#include "simulation_internal.h"
-#include "../effects/strikers/strikers_internal.h"
+#include "../core/simulation_internal.h"
 
-/* Everything that the half kick of a batch's end touches: also where it only turns by nothing, which rounds. */
 enum { MOST_KEPT = 12 };
 
+/* What the half kick of a batch's end touches: also where it only turns by nothing, which rounds. */
 struct brc_look {
     int n;
     brc_buffer *of[MOST_KEPT], *copy[MOST_KEPT];
 };
 
-static int list_touched(const brc_simulation *s, brc_buffer *of[MOST_KEPT])
+static brc_status list_one(brc_state_store *store, brc_buffer *buffer)
 {
-    const brc_strikers *t = s->strikers;
-    const brc_contact_state *c = s->contact;
-    brc_buffer *const all[] = {s->velocity,
-                               s->spin,
-                               s->orientation,
-                               t ? t->displacement : NULL,
-                               t ? t->orientation : NULL,
-                               t ? t->momentum : NULL,
-                               t ? t->motion : NULL,
-                               t ? t->pose : NULL,
-                               t ? t->moved : NULL,
-                               c ? c->momentum : NULL,
-                               c ? c->turned : NULL,
-                               c ? c->way : NULL};
-    int n = 0;
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
-        if (all[k]) of[n++] = all[k];
-    return n;
+    struct brc_look *look = store->self;
+    if (buffer) look->of[look->n++] = buffer;
+    return BRC_OK;
 }
 
 static brc_status create(brc_simulation *s)
 {
     if (s->look) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->look, 1, "looks"));
-    const int n = list_touched(s, s->look->of);
-    for (; s->look->n < n; ++s->look->n)
-        BRC_TRY(brc_buffer_create(s->device, &s->look->copy[s->look->n], brc_buffer_bytes(s->look->of[s->look->n]),
-                                  "copies for looks"));
+    brc_state_store list = {.self = s->look, .field = list_one};
+    brc_buffer *const own[] = {s->velocity, s->spin, s->orientation};
+    for (size_t k = 0; k < sizeof own / sizeof *own; ++k)
+        BRC_TRY(list_one(&list, own[k]));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_KICKED, &(brc_occasion){.store = &list}));
+    for (int k = 0; k < s->look->n; ++k)
+        BRC_TRY(brc_buffer_create(s->device, &s->look->copy[k], brc_buffer_bytes(s->look->of[k]), "copies for looks"));
     return BRC_OK;
 }
 

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_LOOK_H
 #define BRC_SOLVER_LOOK_H
 
-#include "simulation.h"
+#include "../simulation.h"
 
 /* The first step of the current stage after the present one at which some observer looks; INT64_MAX: none. */
 int64_t brc_look_next(const brc_simulation *s);

@@ -1,8 +1,7 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
-#include "ahead.h"
 #include "split.h"
 #include "look.h"
-#include "simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include "../../base/ranks.h"
 #include "../../device/shares.h"
 #include <math.h>
@@ -37,7 +36,10 @@ brc_status brc_simulation_layout(brc_context *context, const brc_scene *scene, c
                                  brc_layout **out)
 {
     BRC_TRY(brc_layout_create(context, domain, slice, out));
-    if (scene->has_contact) brc_layout_all_boundary(*out); /* any element may come to be pushed */
+    int n;
+    const brc_effect *const *effects = brc_effects(&n);
+    for (int k = 0; k < n; ++k)
+        if (effects[k]->exposes && effects[k]->exposes(scene)) brc_layout_all_boundary(*out);
     return BRC_OK;
 }
 
@@ -131,11 +133,9 @@ void brc_simulation_free(brc_simulation **simulation)
     if (!simulation || !*simulation) return;
     brc_simulation *s = *simulation;
     brc_simulation_fields_free(s);
-    brc_loads_free(&s->loads);
     brc_effects_free(s);
     if (s->model->free) s->model->free(s);
     brc_look_free(s);
-    brc_ahead_free(s);
     brc_geometry_free(s);
     brc_passes_free(&s->passes);
     brc_layout_free(&s->layout);
@@ -156,43 +156,11 @@ brc_status brc_simulation_observe(brc_simulation *s, const brc_observer *observe
     return BRC_OK;
 }
 
-brc_status brc_notify_sample(brc_simulation *s)
-{
-    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
-    for (int i = 0; i < s->n_observers; ++i)
-        if (s->observers[i].sample) BRC_TRY(s->observers[i].sample(s->observers[i].self, s));
-    brc_phase_enter(s, before);
-    return BRC_OK;
-}
-
-brc_status brc_notify_frame(brc_simulation *s)
-{
-    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
-    for (int i = 0; i < s->n_observers; ++i)
-        if (s->observers[i].frame) BRC_TRY(s->observers[i].frame(s->observers[i].self, s));
-    brc_phase_enter(s, before);
-    return BRC_OK;
-}
-
-brc_status brc_notify_pause(brc_simulation *s, brc_pause why)
-{
-    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
-    for (int i = 0; i < s->n_observers; ++i)
-        if (s->observers[i].pause) BRC_TRY(s->observers[i].pause(s->observers[i].self, s, why));
-    brc_phase_enter(s, before);
-    return BRC_OK;
-}
-
-/* Bank what the loads of the stage that ends did; its lists go. */
 static brc_status leave_stage(brc_simulation *s)
 {
     if (s->stage < 0) return BRC_OK;
-    double work;
-    BRC_TRY(brc_loads_work(s, &work));
-    s->work_before += work;
     if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC) s->total_time_before += s->time;
-    brc_loads_free(&s->loads);
-    return BRC_OK;
+    return brc_hook_run(s, BRC_HOOK_LEAVE, NULL);
 }
 
 brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
@@ -208,7 +176,7 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     s->left_off = false;
     s->stage = -1; /* lists of the next stage are not there yet */
     BRC_TRY(brc_initial_apply(s, next));
-    BRC_TRY(brc_loads_create(s, next, &s->loads));
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_ENTER, &(brc_occasion){.stage = next}));
     s->stage = stage;
     s->step = 0;
     s->time = s->load_factor = 0;
@@ -242,12 +210,14 @@ brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
     return brc_stage_start(s);
 }
 
-bool brc_simulation_is_to_stop(brc_simulation *s)
+brc_status brc_simulation_find_time_step(brc_simulation *s, int32_t stage, brc_time_step *out)
 {
-    int64_t asked = s->interrupted;
-    if (brc_ranks_count() > 1 && brc_ranks_reduce(s->context, BRC_ANY_BIT, 1, &asked) == BRC_OK && asked)
-        s->interrupted = 1;
-    return asked != 0;
+    BRC_TRY(brc_simulation_begin_stage(s, stage));
+    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC)
+        *out = s->time_step;
+    else
+        *out = (brc_time_step){.governed_by = "no time step: not a dynamic stage"};
+    return BRC_OK;
 }
 
 void brc_simulation_interrupt(brc_simulation *s)
@@ -264,12 +234,6 @@ void brc_simulation_set_patience(brc_simulation *s, const brc_patience *patience
 
 bool brc_simulation_left_off(const brc_simulation *s)
 {
-    return s->left_off;
-}
-
-bool brc_leaves_off(brc_simulation *s)
-{
-    s->left_off |= s->patience && s->patience->over(s->patience->self);
     return s->left_off;
 }
 

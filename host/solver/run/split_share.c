@@ -1,6 +1,6 @@
 /* Handing out loads, initial fields and sensors to the parts of a scene. */
 #include "split.h"
-#include "../effects/loads/loaded_faces.h"
+#include "../core/loaded_faces.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #include "stage_end.h"
-#include "simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include <stdio.h>
 
 void brc_simulation_end_stage(brc_simulation *s, const char *reason)

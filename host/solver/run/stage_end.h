@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_STAGE_END_H
 #define BRC_SOLVER_STAGE_END_H
 
-#include "simulation.h"
+#include "../simulation.h"
 
 /* End the current stage, dynamic or event by event, at this sample. For `sample` of an observer of a scene's first
  * simulation. reason: a sentence, copied. */

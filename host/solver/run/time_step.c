@@ -1,8 +1,7 @@
 /* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (docs/notebook/theory.md
  * T5), or as given, or the papers' rule. */
 #include "../../base/random.h"
-#include "../effects/contact/contact.h"
-#include "simulation_internal.h"
+#include "../core/simulation_internal.h"
 #include <math.h>
 
 enum { MOST_ITERATIONS = 2000, WATCH = 20 };
@@ -122,10 +121,10 @@ static brc_status critical_step(brc_simulation *s, double *out)
     BRC_TRY_OR(cleanup, brc_fields_create(s->device, &brc_power_fields, &s->wants, &w));
     const double size = cbrt(s->domain->volume[0]);
     BRC_TRY_OR(cleanup, random_vector(s, w.x, 0, size));
-    BRC_TRY_OR(cleanup, brc_loads_zero_imposed(s, w.x));
+    BRC_TRY_OR(cleanup, brc_constrain(s, w.x, NULL));
     if (s->model->turns) {
         BRC_TRY_OR(cleanup, random_vector(s, w.theta, 1, 1));
-        BRC_TRY_OR(cleanup, brc_loads_zero_turned(s, w.theta));
+        BRC_TRY_OR(cleanup, brc_constrain(s, NULL, w.theta));
     }
     for (int i = 1; i <= MOST_ITERATIONS; ++i) {
         BRC_TRY_OR(cleanup, apply(s, &w, &rayleigh));
@@ -167,14 +166,17 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
     } else {
         BRC_TRY(critical_step(s, &out->critical));
     }
-    double touching;
-    BRC_TRY(brc_contact_critical_step(s, &touching));
-    if (isfinite(touching)) { /* squares of frequencies of two springs on one mass add at most */
+    double beside[BRC_MOST_EFFECTS];
+    for (int k = 0; k < s->n_effects; ++k) {
+        const brc_effect_step_bound *other = s->effect[k]->step_bound;
+        beside[k] = INFINITY;
+        if (other) BRC_TRY(other->find(s, &beside[k]));
+        if (!isfinite(beside[k])) continue; /* squares of frequencies of two springs on one mass add at most */
         if (stage->time_step_rule == BRC_TIME_STEP_AUTO)
-            out->governed_by = touching < out->critical ? "auto: contact"
-                               : bound                  ? bound->with_contact
-                                                        : "auto: power iteration and contact";
-        out->critical = 1 / sqrt(1 / (out->critical * out->critical) + 1 / (touching * touching));
+            out->governed_by = beside[k] < out->critical ? other->alone
+                               : bound                   ? bound->with_contact
+                                                         : other->with_power;
+        out->critical = 1 / sqrt(1 / (out->critical * out->critical) + 1 / (beside[k] * beside[k]));
     }
     /* Tchamwa-Wielgosz is stable for w dt <= 2 / sqrt(2 phi - 1) */
     if (stage->integrator == BRC_TCHAMWA_WIELGOSZ && stage->phi > 0.5) out->critical /= sqrt(2 * stage->phi - 1);
@@ -185,20 +187,11 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         out->value = stage->safety * out->critical;
     }
     out->safety = out->value / out->critical;
-    brc_contact_check_step(s, stage->name, touching, out);
+    for (int k = 0; k < s->n_effects; ++k)
+        if (s->effect[k]->step_bound) s->effect[k]->step_bound->check(s, stage->name, beside[k], out);
     if (out->safety > 1)
         brc_log(s->context, BRC_LOG_WARNING,
                 "stage '%s': the time step %.4g s is %.3g times the critical one; expect it to diverge", stage->name,
                 out->value, out->safety);
-    return BRC_OK;
-}
-
-brc_status brc_simulation_find_time_step(brc_simulation *s, int32_t stage, brc_time_step *out)
-{
-    BRC_TRY(brc_simulation_begin_stage(s, stage));
-    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC)
-        *out = s->time_step;
-    else
-        *out = (brc_time_step){.governed_by = "no time step: not a dynamic stage"};
     return BRC_OK;
 }

@@ -4,7 +4,7 @@
 #define BRC_SOLVER_PIECES_H
 
 #include "balance.h"
-#include "../run/simulation.h"
+#include "../simulation.h"
 
 typedef struct brc_pieces {
     int64_t n;

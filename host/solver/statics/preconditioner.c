@@ -22,8 +22,8 @@ brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, boo
         BRC_TRY(brc_vector_blocks6(s, v->preconditioner.blocks, v->r.move, v->r.turn, v->z.move, v->z.turn));
     else
         BRC_TRY(brc_vector_blocks(s, v->preconditioner.blocks, v->r.move, v->z.move));
-    if (v->z.turn) BRC_TRY(brc_loads_zero_turned(s, v->z.turn));
-    return rotations ? BRC_OK : brc_loads_zero_imposed(s, v->z.move);
+    if (v->z.turn) BRC_TRY(brc_constrain(s, NULL, v->z.turn));
+    return rotations ? BRC_OK : brc_constrain(s, v->z.move, NULL);
 }
 
 static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *again)

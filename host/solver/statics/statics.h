@@ -4,7 +4,7 @@
 
 #include "../../base/log.h"
 #include "pieces.h"
-#include "../run/simulation_internal.h"
+#include "../core/simulation_internal.h"
 
 /* A vector of all unknowns: displacements or forces [n_rows][3] and, for cbm, rotations or torques [n_rows][3] (else
  * NULL). */

@@ -1,5 +1,5 @@
 /* Algebra of vectors, and sums in fixed blocks (vector.cl). */
-#include "../run/simulation_internal.h"
+#include "../core/simulation_internal.h"
 
 enum { SUM_BLOCK = 1024 }; /* as in vector.cl */
 

@@ -60,6 +60,48 @@ LAW contact_meeting contact_of_foot(convex_foot foot, svec3 branch, state ri, st
         branch, normal, arm, svec3_sub(arm, branch), ri - foot.distance, rj > 0 ? ri * rj / (ri + rj) : ri};
 }
 
+/* What touching spheres do to each other, or a sphere and a striker. heavy: their mass [kg]. */
+LAW void contact_press_spheres(contact_meeting meet, smat3 turn_i, smat3 turn_j, contact_law how, int is_linear,
+                               state heavy, state dt, UPDATE(state) past, PUT(state) out)
+{
+    const state depth = meet.depth;
+    const int looked = past[14] > 0;
+    const contact_normal normal = contact_sphere_force(how, is_linear, depth, meet.radius, heavy);
+    const state rate = dt > 0 ? (looked ? (depth - past[9]) / dt : STATE(0)) : past[10];
+    const state viscous = contact_dashpot(normal.force, normal.dashpot, how.damping, rate);
+    svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
+    if (past[12] > 0) {
+        slip = svec3_sub(contact_slip(turn_i, svec3_load(past, 3), turn_j, svec3_load(past, 6), meet.branch),
+                         svec3_load(past, 16));
+        stretch = svec3_load(past, 0);
+    }
+    const contact_stick stick =
+        contact_friction(stretch, slip, meet.normal, normal.sticking, how.friction * (normal.force + viscous));
+    const svec3 force =
+        svec3_add_scaled(svec3_scale(-normal.sticking, stick.stretch), -(normal.force + viscous), meet.normal);
+    svec3_store(out, 0, force);
+    out[3] = normal.energy + STATE(0.5) * normal.sticking * svec3_dot(stick.stretch, stick.stretch);
+    out[4] = dt > 0 ? stick.lost : STATE(0);
+    out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (depth - past[9]) : STATE(0);
+    out[6] = normal.force + viscous;
+    out[7] = depth;
+    svec3_store(out, CONTACT_RESULT, svec3_cross(meet.arm_i, force));
+    svec3_store(out, CONTACT_RESULT + 3, svec3_scale(STATE(-1), svec3_cross(meet.arm_j, force)));
+    if (dt > 0) {
+        svec3_store(past, 0, stick.stretch);
+        const svec3 own_i = smat3_tmul_vec(turn_i, meet.arm_i), own_j = smat3_tmul_vec(turn_j, meet.arm_j);
+        svec3_store(past, 3, own_i);
+        svec3_store(past, 6, own_j);
+        svec3_store(past, 16, contact_slip(turn_i, own_i, turn_j, own_j, meet.branch));
+        past[9] = depth;
+        past[10] = rate;
+        past[11] = viscous;
+        past[12] = 1;
+        past[13] = (state)stick.sliding;
+        past[14] = 1;
+    }
+}
+
 /* Spheres. dt: the step that ended, whose friction and damping are booked; 0: the same state again, nothing is
  * remembered. Others than elements: number n + piece of a striker, as in contact_cells.cl; piece_radius: of pieces that
  * are spheres [m]. */
@@ -113,47 +155,13 @@ KERNEL void contact_spheres(int n_items, int whole, state dt, int n, int is_line
             }
             meet = contact_of_foot(foot, branch, ri, piece_radius[j - n]);
         }
-        const state depth = meet.depth;
-        const int looked = past[14] > 0, touching = depth > 0;
-        if (!touching && dt > 0) contact_apart(past, depth, 0);
+        const int touching = meet.depth > 0;
+        if (!touching && dt > 0) contact_apart(past, meet.depth, 0);
         touch[p] = touching;
         if (touching) {
             const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
             const state heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
-            const contact_normal normal = contact_sphere_force(how, is_linear, depth, meet.radius, heavy);
-            const state rate = dt > 0 ? (looked ? (depth - past[9]) / dt : STATE(0)) : past[10];
-            const state viscous = contact_dashpot(normal.force, normal.dashpot, how.damping, rate);
-            svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
-            if (past[12] > 0) {
-                slip = svec3_sub(contact_slip(turn_i, svec3_load(past, 3), turn_j, svec3_load(past, 6), meet.branch),
-                                 svec3_load(past, 16));
-                stretch = svec3_load(past, 0);
-            }
-            const contact_stick stick =
-                contact_friction(stretch, slip, meet.normal, normal.sticking, how.friction * (normal.force + viscous));
-            const svec3 force =
-                svec3_add_scaled(svec3_scale(-normal.sticking, stick.stretch), -(normal.force + viscous), meet.normal);
-            svec3_store(out, 0, force);
-            out[3] = normal.energy + STATE(0.5) * normal.sticking * svec3_dot(stick.stretch, stick.stretch);
-            out[4] = dt > 0 ? stick.lost : STATE(0);
-            out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (depth - past[9]) : STATE(0);
-            out[6] = normal.force + viscous;
-            out[7] = depth;
-            svec3_store(out, CONTACT_RESULT, svec3_cross(meet.arm_i, force));
-            svec3_store(out, CONTACT_RESULT + 3, svec3_scale(STATE(-1), svec3_cross(meet.arm_j, force)));
-            if (dt > 0) {
-                svec3_store(past, 0, stick.stretch);
-                const svec3 own_i = smat3_tmul_vec(turn_i, meet.arm_i), own_j = smat3_tmul_vec(turn_j, meet.arm_j);
-                svec3_store(past, 3, own_i);
-                svec3_store(past, 6, own_j);
-                svec3_store(past, 16, contact_slip(turn_i, own_i, turn_j, own_j, meet.branch));
-                past[9] = depth;
-                past[10] = rate;
-                past[11] = viscous;
-                past[12] = 1;
-                past[13] = (state)stick.sliding;
-                past[14] = 1;
-            }
+            contact_press_spheres(meet, turn_i, turn_j, how, is_linear, heavy, dt, past, out);
         }
     }
 }

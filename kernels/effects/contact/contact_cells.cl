@@ -52,6 +52,97 @@ ROUTINE void contact_lay_to_rest(PUT(state) past, contact_body a, contact_body b
     }
 }
 
+/* Two polyhedra, seen from the place of i; the other one may be a piece of a striker, is_wall: a half-space. */
+typedef struct contact_two_cells {
+    convex_shape shape_i, shape_j;
+    smat3 map_i, map_j;
+    svec3 branch;
+    int is_wall;
+} contact_two_cells;
+
+/* Their overlap; axis: as convex_overlap_after. */
+LAW convex_overlap contact_overlap_of(contact_two_cells pair, int axis)
+{
+    const convex_pose pose_i = {{0, 0, 0}, convex_map_of(pair.map_i)};
+    if (pair.is_wall) {
+        const convex_plane face = convex_own_plane(pair.shape_j, 0);
+        const svec3 normal = smat3_mul_vec(pair.map_j, svec3_of(face.normal));
+        const convex_plane wall = {convex_of(normal), face.height + svec3_dot(normal, pair.branch)};
+        return convex_wall_overlap(pair.shape_i, pose_i, wall, convex_of(pair.branch));
+    }
+    const convex_pose pose_j = {convex_of(pair.branch), convex_map_of(pair.map_j)};
+    return convex_overlap_after(pair.shape_i, pose_i, pair.shape_j, pose_j, axis);
+}
+
+/* What touching polyhedra do to each other. h: their size [m]; heavy: their mass [kg]; is_element: the other one is no
+ * striker. */
+LAW void contact_press_cells(contact_two_cells pair, convex_overlap over, contact_law how, state h, state heavy,
+                             state dt, int broke, int affine, int is_element, UPDATE(state) past, UPDATE(state) out)
+{
+    const int width = affine ? 9 : 3, looked = past[14] > 0;
+    const svec3 area = svec3_of(over.area), branch = pair.branch;
+    const state surface = svec3_length(area), cube = h * h * h;
+    const state modulus = how.stiffness > 0 ? how.stiffness / h : how.modulus, spring = modulus / cube;
+    const state rate = dt > 0 ? (looked ? (over.volume - past[9]) / dt : STATE(0)) : past[10];
+    const state elastic = spring * over.volume;
+    const state viscous = contact_dashpot(elastic, STATE(2) * SQRT_STATE(heavy * spring) / surface, how.damping, rate);
+    const state pressure = elastic + viscous, sticking = how.tangential * modulus * h;
+    const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point),
+                arm_j = svec3_sub(point, branch);
+    svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
+    if (past[12] > 0) {
+        if (!broke)
+            slip = svec3_sub(contact_slip(pair.map_i, svec3_load(past, 3), pair.map_j, svec3_load(past, 6), branch),
+                             svec3_load(past, 16));
+        stretch = svec3_load(past, 0);
+    }
+    const contact_stick stick = contact_friction(stretch, slip, n_out, sticking, how.friction * pressure * surface);
+    const svec3 rub = svec3_scale(-sticking, stick.stretch), back = svec3_scale(STATE(-1), rub);
+    const svec3 own_i = smat3_mul_vec(smat3_inverse(pair.map_i), point),
+                own_j = smat3_mul_vec(smat3_inverse(pair.map_j), arm_j);
+    svec3_store(out, 0, svec3_add_scaled(rub, pressure, area));
+    out[3] = STATE(0.5) * (elastic * over.volume + sticking * svec3_dot(stick.stretch, stick.stretch));
+    out[4] = dt > 0 ? stick.lost : STATE(0);
+    out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (over.volume - past[9]) : STATE(0);
+    out[6] = pressure * surface;
+    out[7] = over.volume / surface;
+    if (!pair.is_wall) {
+        const contact_body a = {pair.shape_i, convex_map_of(pair.map_i), pair.shape_i.radius, 0},
+                           b = {pair.shape_j, convex_map_of(pair.map_j), pair.shape_j.radius, 0};
+        out[7] = contact_depth(a, b, convex_of(branch), out[7], h);
+    }
+    contact_put_moment(out, CONTACT_RESULT, affine, pressure, over.moment_a, pair.map_i, rub, own_i, point);
+    contact_put_moment(out, CONTACT_RESULT + width, affine && is_element, pressure, over.moment_b, pair.map_j, back,
+                       own_j, arm_j);
+    if (dt > 0 || broke) {
+        svec3_store(past, 0, stick.stretch);
+        svec3_store(past, 3, own_i);
+        svec3_store(past, 6, own_j);
+        svec3_store(past, 16, contact_slip(pair.map_i, own_i, pair.map_j, own_j, branch));
+        past[9] = over.volume;
+        past[10] = rate;
+        past[11] = viscous;
+        past[12] = 1;
+        past[13] = (state)stick.sliding;
+        past[14] = 1;
+        past[15] = 0;
+    }
+}
+
+/* Numbers of a later pair that are asked for ahead. */
+LAW void contact_ask_ahead(int p, int n, OWN(int) ends, GATHER(state) place, GATHER(state) displacement,
+                           GATHER(state) way, UPDATE(state) history)
+{
+    const int next = ends[2 * (brc_size)p + 1];
+    PREFETCH(history, (brc_size)p * CONTACT_HISTORY + 14);
+    PREFETCH(history, (brc_size)p * CONTACT_HISTORY + 19);
+    if (next < n) {
+        PREFETCH(displacement, (brc_size)next * 3);
+        PREFETCH(place, (brc_size)next * 3);
+        PREFETCH(way, next);
+    }
+}
+
 /* Pairs ahead whose numbers are asked for: most pairs rest, and cost what it takes to read that. */
 #define CONTACT_AHEAD 16
 /* whole: all pairs, else those of todo. broke: bonds did, so that the gradients of cells, and their surfaces with them,
@@ -75,16 +166,8 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
         svec3 branch = {0, 0, 0};
         state turned = 0;
         int rests = 0;
-        if (whole && item + CONTACT_AHEAD < n_items) {
-            const int next = ends[2 * (brc_size)(item + CONTACT_AHEAD) + 1];
-            PREFETCH(history, (brc_size)(item + CONTACT_AHEAD) * CONTACT_HISTORY + 14);
-            PREFETCH(history, (brc_size)(item + CONTACT_AHEAD) * CONTACT_HISTORY + 19);
-            if (next < n) {
-                PREFETCH(displacement, (brc_size)next * 3);
-                PREFETCH(place, (brc_size)next * 3);
-                PREFETCH(way, next);
-            }
-        }
+        if (whole && item + CONTACT_AHEAD < n_items)
+            contact_ask_ahead(item + CONTACT_AHEAD, n, ends, place, displacement, way, history);
         if (j < n) {
             branch = contact_branch(place, displacement, i, j);
             turned = rigid[i] && rigid[j] ? way[i] + way[j] : STATE(0);
@@ -93,101 +176,40 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
         if (rests)
             touch[p] = 0;
         else {
-            const smat3 map_i = contact_map(affine, gradient, orientation, i);
-            const convex_shape shape_i =
-                convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[i]);
-            const convex_shape shape_j =
-                convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
-            const convex_pose pose_i = {{0, 0, 0}, convex_map_of(map_i)};
-            smat3 map_j;
-            convex_overlap over;
-            int is_wall = 0;
+            contact_two_cells pair;
+            pair.branch = branch;
+            pair.is_wall = 0;
+            pair.map_i = contact_map(affine, gradient, orientation, i);
+            pair.shape_i = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[i]);
+            pair.shape_j = convex_shape_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id[j]);
             if (j < n) {
-                map_j = contact_map(affine, gradient, orientation, j);
+                pair.map_j = contact_map(affine, gradient, orientation, j);
             } else {
                 const brc_size at = (brc_size)piece_striker[j - n] * 12;
                 const svec3 own = svec3_add(svec3_load(place, (brc_size)i * 3), (svec3){middle_x, middle_y, middle_z});
-                map_j = smat3_load(striker_pose, at + 3);
-                branch =
+                pair.map_j = smat3_load(striker_pose, at + 3);
+                pair.branch =
                     svec3_sub(svec3_sub(svec3_load(striker_pose, at), own), svec3_load(displacement, (brc_size)i * 3));
-                is_wall = piece_kind[j - n] == 2;
+                pair.is_wall = piece_kind[j - n] == 2;
             }
-            if (is_wall) {
-                const convex_plane face = convex_own_plane(shape_j, 0);
-                const svec3 normal = smat3_mul_vec(map_j, svec3_of(face.normal));
-                const convex_plane wall = {convex_of(normal), face.height + svec3_dot(normal, branch)};
-                over = convex_wall_overlap(shape_i, pose_i, wall, convex_of(branch));
-            } else {
-                const convex_pose pose_j = {convex_of(branch), convex_map_of(map_j)};
-                over = convex_overlap_after(shape_i, pose_i, shape_j, pose_j, (int)past[15]);
-            }
-            const svec3 area = svec3_of(over.area);
-            const state surface = svec3_length(area);
+            const convex_overlap over = contact_overlap_of(pair, (int)past[15]);
             /* an overlap that could not be taken (failed 2) divides by no area: what is not finite stops the run, in
              * place of a force that is missing */
-            const int touching = (over.volume > 0 && surface > 0) || over.failed == 2, looked = past[14] > 0,
-                      keeps = dt > 0 || broke;
+            const int touching = (over.volume > 0 && svec3_length(svec3_of(over.area)) > 0) || over.failed == 2;
             touch[p] = touching;
-            if (!touching && keeps) {
+            if (!touching && (dt > 0 || broke)) {
                 contact_apart(past, STATE(0), over.apart);
                 if (j < n && over.failed == 0 && rigid[i] && rigid[j]) {
-                    const contact_body a = {shape_i, convex_map_of(map_i), shape_i.radius, 0},
-                                       b = {shape_j, convex_map_of(map_j), shape_j.radius, 0};
-                    contact_lay_to_rest(past, a, b, convex_of(branch), over.apart, turned);
+                    const contact_body a = {pair.shape_i, convex_map_of(pair.map_i), pair.shape_i.radius, 0},
+                                       b = {pair.shape_j, convex_map_of(pair.map_j), pair.shape_j.radius, 0};
+                    contact_lay_to_rest(past, a, b, convex_of(pair.branch), over.apart, turned);
                 }
             }
             if (touching) {
                 const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
                 const state h = size[j] > 0 ? STATE(2) * size[i] * size[j] / (size[i] + size[j]) : size[i],
-                            cube = h * h * h;
-                const state heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
-                const state modulus = how.stiffness > 0 ? how.stiffness / h : how.modulus, spring = modulus / cube;
-                const state rate = dt > 0 ? (looked ? (over.volume - past[9]) / dt : STATE(0)) : past[10];
-                const state elastic = spring * over.volume;
-                const state viscous =
-                    contact_dashpot(elastic, STATE(2) * SQRT_STATE(heavy * spring) / surface, how.damping, rate);
-                const state pressure = elastic + viscous, sticking = how.tangential * modulus * h;
-                const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point),
-                            arm_j = svec3_sub(point, branch);
-                svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
-                if (past[12] > 0) {
-                    if (!broke)
-                        slip = svec3_sub(contact_slip(map_i, svec3_load(past, 3), map_j, svec3_load(past, 6), branch),
-                                         svec3_load(past, 16));
-                    stretch = svec3_load(past, 0);
-                }
-                const contact_stick stick =
-                    contact_friction(stretch, slip, n_out, sticking, how.friction * pressure * surface);
-                const svec3 rub = svec3_scale(-sticking, stick.stretch), back = svec3_scale(STATE(-1), rub);
-                const svec3 own_i = smat3_mul_vec(smat3_inverse(map_i), point),
-                            own_j = smat3_mul_vec(smat3_inverse(map_j), arm_j);
-                svec3_store(out, 0, svec3_add_scaled(rub, pressure, area));
-                out[3] = STATE(0.5) * (elastic * over.volume + sticking * svec3_dot(stick.stretch, stick.stretch));
-                out[4] = dt > 0 ? stick.lost : STATE(0);
-                out[5] = dt > 0 && looked ? STATE(0.5) * (past[11] + viscous) * (over.volume - past[9]) : STATE(0);
-                out[6] = pressure * surface;
-                out[7] = over.volume / surface;
-                if (!is_wall) {
-                    const contact_body a = {shape_i, convex_map_of(map_i), shape_i.radius, 0},
-                                       b = {shape_j, convex_map_of(map_j), shape_j.radius, 0};
-                    out[7] = contact_depth(a, b, convex_of(branch), out[7], h);
-                }
-                contact_put_moment(out, CONTACT_RESULT, affine, pressure, over.moment_a, map_i, rub, own_i, point);
-                contact_put_moment(out, CONTACT_RESULT + width, affine && j < n, pressure, over.moment_b, map_j, back,
-                                   own_j, arm_j);
-                if (keeps) {
-                    svec3_store(past, 0, stick.stretch);
-                    svec3_store(past, 3, own_i);
-                    svec3_store(past, 6, own_j);
-                    svec3_store(past, 16, contact_slip(map_i, own_i, map_j, own_j, branch));
-                    past[9] = over.volume;
-                    past[10] = rate;
-                    past[11] = viscous;
-                    past[12] = 1;
-                    past[13] = (state)stick.sliding;
-                    past[14] = 1;
-                    past[15] = 0;
-                }
+                            heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
+                contact_press_cells(pair, over, how, h, heavy, dt, broke, affine, j < n, past, out);
             }
         }
     }

@@ -96,7 +96,7 @@ KERNEL void closure_force(int n_groups, OWN(int) row_start, OWN(int) other, OWN(
                           GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
                           GATHER(coeff) beam_of, int leans, OWN(coeff) lean, coeff inv_tension, coeff inv_compression,
                           coeff inv_shear, int drucker_prager, coeff slope, OWN(int) rubs, UPDATE(state) force,
-                          UPDATE(state) torque, UPDATE(coeff) record, PUT(coeff) reach)
+                          UPDATE(state) torque, UPDATE(coeff) record, PUT(coeff) stress_bound)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
@@ -115,7 +115,7 @@ KERNEL void closure_force(int n_groups, OWN(int) row_start, OWN(int) other, OWN(
                 lane_block(record, slice, RECORD, 2, lane0) + v.zz, lane_block(record, slice, RECORD, 3, lane0) + v.yz,
                 lane_block(record, slice, RECORD, 4, lane0) + v.xz, lane_block(record, slice, RECORD, 5, lane0) + v.xy};
             const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
-            fracture_put_record(group, all, scale, record, reach);
+            fracture_put_record(group, all, scale, record, stress_bound);
         }
     }
 }

@@ -129,7 +129,7 @@ KERNEL void beam_soft_force(int n_groups, OWN(int) row_start, OWN(int) neighbour
                             coeff bend, coeff twist, GATHER(coeff) beam_of, coeff inv_tension, coeff inv_compression,
                             coeff inv_shear, int drucker_prager, coeff slope, OWN(int) active, OWN(int) open,
                             OWN(coeff) crack, UPDATE(state) force, UPDATE(state) torque, UPDATE(coeff) record,
-                            PUT(coeff) reach)
+                            PUT(coeff) stress_bound)
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (active[group]) {
@@ -148,7 +148,7 @@ KERNEL void beam_soft_force(int n_groups, OWN(int) row_start, OWN(int) neighbour
                 lane_block(record, slice, RECORD, 2, lane0) - v.zz, lane_block(record, slice, RECORD, 3, lane0) - v.yz,
                 lane_block(record, slice, RECORD, 4, lane0) - v.xz, lane_block(record, slice, RECORD, 5, lane0) - v.xy};
             const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};
-            fracture_put_record(group, left, scale, record, reach);
+            fracture_put_record(group, left, scale, record, stress_bound);
         }
     }
 }

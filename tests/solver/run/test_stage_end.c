@@ -1,6 +1,6 @@
 /* Stages that end early, and the regime of a fracture. */
 #include "../effects/fracture/fracture_case.h"
-#include "../../../host/solver/run/regime.h"
+#include "../../../host/solver/core/regime.h"
 #include "../../../host/solver/run/stage_end.h"
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
 #include "contact_internal.h"
-#include "../../run/ahead.h"
+#include "../fracture/ahead.h"
 #include "../fracture/cell_breaks_internal.h"
 #include "../strikers/strikers_internal.h"
 #include "touching.h"

@@ -1,7 +1,7 @@
 /* Cells of dlsm that have lost all their bonds, as rigid bodies (contact_rigid.cl). */
 #include "../fracture/cell_breaks_internal.h"
 #include "contact_internal.h"
-#include "../loads/loaded_faces.h"
+#include "../../core/loaded_faces.h"
 
 /* Elements with a face that a load holds or pulls. */
 static brc_status mark_loaded(brc_simulation *s, const brc_load *load, int32_t *loaded)

@@ -1,6 +1,6 @@
 /* Contact as an effect. */
 #include "../effect.h"
-#include "../fracture/rings.h"
+#include "../../core/rings.h"
 #include "contact_internal.h"
 
 extern const brc_field_table brc_contact_old_slot_fields, brc_contact_old_listed_fields;
@@ -30,6 +30,25 @@ static brc_status store(brc_simulation *s, const brc_occasion *now)
     return brc_contact_store_state(s, now->store);
 }
 
+static brc_status stretch(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_contact_store_stretch(s, now->store);
+}
+static brc_status kicked(brc_simulation *s, const brc_occasion *now)
+{
+    brc_contact_state *c = s->contact;
+    brc_buffer *const all[] = {c->momentum, c->turned, c->way};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        BRC_TRY(now->store->field(now->store, all[k]));
+    return BRC_OK;
+}
+static bool exposes(const brc_scene *scene) /* any element may come to be pushed */
+{
+    return scene->has_contact;
+}
+static const brc_effect_step_bound step_bound = {brc_contact_critical_step, brc_contact_check_step, "auto: contact",
+                                                 "auto: power iteration and contact"};
+
 static const brc_hooked hooked[] = {
     {.hook = BRC_HOOK_RESTART, .plain = brc_contact_restart},
     {.hook = BRC_HOOK_STARTED, .call = started},
@@ -37,7 +56,9 @@ static const brc_hooked hooked[] = {
     {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_SURFACES, .phase = BRC_PHASE_SEARCH, .plain = brc_contact_follow},
     {.hook = BRC_HOOK_FORCE, .order = BRC_FORCE_OF_SURFACES, .phase = BRC_PHASE_PAIRS, .call = press},
     {.hook = BRC_HOOK_LEDGER, .call = energies},
-    {.hook = BRC_HOOK_STORE, .call = store}};
+    {.hook = BRC_HOOK_STORE, .call = store},
+    {.hook = BRC_HOOK_STRETCH, .call = stretch},
+    {.hook = BRC_HOOK_KICKED, .call = kicked}};
 static const brc_field_table *const fields[] = {&brc_contact_fields,
                                                 &brc_contact_sum_fields,
                                                 &brc_contact_slot_fields,
@@ -57,6 +78,10 @@ static const brc_field_table *const fields[] = {&brc_contact_fields,
                                                 NULL};
 const brc_effect brc_contact_effect = {.name = "contact",
                                        .in = in,
+                                       .exposes = exposes,
+                                       .follows_surfaces = true,
+                                       .step_bound = &step_bound,
+                                       .quiet_steps = brc_contact_quiet_steps,
                                        .fields = fields,
                                        .create = brc_contact_create,
                                        .free = brc_contact_free,

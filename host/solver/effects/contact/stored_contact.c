@@ -1,7 +1,7 @@
 /* Contact, for a store (state_store.h). The list of pairs is made again from where the elements were when it was made,
  * so it comes in the same order; what a pair remembers is kept by the ids of its two ends. */
 #include "contact_internal.h"
-#include "../../run/state_store.h"
+#include "../../core/state_store.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_TOUCHING_H
 #define BRC_SOLVER_TOUCHING_H
 
-#include "../../run/simulation.h"
+#include "../../simulation.h"
 
 typedef struct brc_touching {
     double pairs;       /* that touch [-] */

@@ -226,7 +226,7 @@ brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)
 
 double brc_simulation_beam_radius(const brc_simulation *s, int64_t e)
 {
-    return s->beam ? brc_beam_of_element(s, e)->radius : 0;
+    return s->model->bond_radius ? s->model->bond_radius(s, e) : 0;
 }
 
 /* Lowest element id of the fragment of e, with halved paths. */

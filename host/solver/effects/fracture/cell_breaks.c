@@ -1,7 +1,7 @@
-#include "../../run/ahead.h"
+#include "ahead.h"
 #include "cell_breaks_internal.h"
 #include "../contact/contact.h"
-#include "rings.h"
+#include "../../core/rings.h"
 #include "strengths.h"
 #include "../strikers/strikers_internal.h"
 #include <math.h>
@@ -91,17 +91,6 @@ static const brc_field_row rows[] = {
      BRC_NOT_KEPT},
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
-
-const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *outer, brc_cell_scopes *room)
-{
-    room->breaks = brc_scope_of_breaks(s, outer);
-    room->rings = brc_scope_of_rings(s->fracture->cells->rings, &room->breaks);
-    room->cells = (brc_scope){.owner = "breaks of cells",
-                              .base = s->fracture->cells,
-                              .tables = {&brc_cell_break_fields},
-                              .outer = &room->rings};
-    return &room->cells;
-}
 
 static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
 {

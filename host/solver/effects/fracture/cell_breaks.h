@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_CELL_BREAKS_H
 #define BRC_SOLVER_CELL_BREAKS_H
 
-#include "../../run/simulation_internal.h"
+#include "../../core/simulation_internal.h"
 
 typedef struct brc_cell_breaks brc_cell_breaks;
 

@@ -5,7 +5,7 @@
 
 #include "cell_breaks.h"
 #include "fracture_internal.h"
-#include "rings.h"
+#include "../../core/rings.h"
 
 struct brc_cell_breaks {
     brc_pass *force, *force_listed, *check, *ratio, *break_pass, *rebuild, *share, *elastic, *bonds;

@@ -1,7 +1,7 @@
 /* Cells that fail by criteria of elements (NAH19 section 2.2 and the limits on shear that it proposes), with a cell's
  * own stress in place of the virial of beams: passes of cell_criteria.cl before and after those of
  * fracture.cl. */
-#include "../../run/ahead.h"
+#include "ahead.h"
 #include "cell_breaks_internal.h"
 
 brc_status brc_cell_criteria_create(brc_simulation *s)

@@ -85,11 +85,6 @@ cleanup:
 
 /* ---- arrays ---- */
 
-double brc_fracture_volume(const brc_domain *d, int64_t e)
-{
-    return 2 * d->volume[e] / (d->quality.volume_fraction > 0 ? d->quality.volume_fraction : 1);
-}
-
 /* Limits, and the volumes in the records. */
 static brc_status upload_rows(brc_simulation *s)
 {
@@ -127,11 +122,6 @@ static bool breaks_by_element(const brc_wants *w)
 static bool weighted(const brc_wants *w)
 {
     return w->weighted || (w->softens && brc_wants_spheres(w));
-}
-
-bool brc_wants_lost_beams(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_spheres(w) && (brc_scene_shuts(w->scene) || w->softens);
 }
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
@@ -275,8 +265,6 @@ void brc_fracture_free(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     if (!f) return;
-    if (s->model->cohesion) s->model->cohesion->free(s);
-    brc_cell_breaks_free(s);
     brc_fields_free(&brc_criterion_fields, f);
     brc_fields_free(&brc_break_fields, f);
     brc_memory_free(f->limit);
@@ -335,14 +323,6 @@ cleanup:
     brc_buffer_free(&ratio);
     brc_memory_free(value);
     return status;
-}
-
-brc_status brc_simulation_failure_ratio(brc_simulation *s, double *out)
-{
-    *out = 0;
-    if (!s->fracture)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT, "the scene has no `fracture`, so nothing limits its stress");
-    return s->fracture->cells ? brc_cell_breaks_failure_ratio(s, out) : brc_fracture_ratio(s, out);
 }
 
 double brc_simulation_element_strength(const brc_simulation *s, int64_t e)

@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_FRACTURE_H
 #define BRC_SOLVER_FRACTURE_H
 
-#include "../../run/simulation.h"
+#include "../../simulation.h"
 
 typedef enum brc_break_mode {
     BRC_BREAK_TENSION = 1, /* the first three as in failure.h */

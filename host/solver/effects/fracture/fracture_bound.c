@@ -100,3 +100,13 @@ cleanup:
     brc_strengths_free(&strengths);
     return status;
 }
+
+bool brc_wants_lost_beams(const brc_wants *w)
+{
+    return w->scene->has_fracture && brc_wants_spheres(w) && (brc_scene_shuts(w->scene) || w->softens);
+}
+
+double brc_fracture_volume(const brc_domain *d, int64_t e)
+{
+    return 2 * d->volume[e] / (d->quality.volume_fraction > 0 ? d->quality.volume_fraction : 1);
+}

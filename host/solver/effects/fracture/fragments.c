@@ -1,6 +1,6 @@
 /* Momenta of fragments from the state of their elements. */
 #include "fragments.h"
-#include "../../run/simulation_internal.h"
+#include "../../core/simulation_internal.h"
 #include "../../core/sym3.h"
 
 /* Directions with less than this share of the largest moment of inertia count as without: a row of points about

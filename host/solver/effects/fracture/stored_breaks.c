@@ -2,7 +2,7 @@
  * simulation has all others right. */
 #include "cell_breaks.h"
 #include "fracture_internal.h"
-#include "../../run/state_store.h"
+#include "../../core/state_store.h"
 #include <string.h>
 
 /* Half-edges of broken bonds. */

@@ -33,6 +33,32 @@ static bool turned(const brc_wants *w)
     return some_load(w, BRC_LOAD_ELEMENT_ROTATION, BRC_LOAD_ELEMENT_ROTATION);
 }
 
+static brc_status enter(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_loads_create(s, now->stage, &s->loads);
+}
+/* What they did is banked. */
+static brc_status leave(brc_simulation *s)
+{
+    double work;
+    BRC_TRY(brc_loads_work(s, &work));
+    s->work_before += work;
+    brc_loads_free(&s->loads);
+    return BRC_OK;
+}
+static void release(brc_simulation *s)
+{
+    brc_loads_free(&s->loads);
+}
+static brc_status constrain(brc_simulation *s, const brc_occasion *now)
+{
+    if (now->vector) BRC_TRY(brc_loads_zero_imposed(s, now->vector));
+    return now->rotations ? brc_loads_zero_turned(s, now->rotations) : BRC_OK;
+}
+static brc_status store(brc_simulation *s, const brc_occasion *now)
+{
+    return brc_loads_store(s, now->store);
+}
 static brc_status place(brc_simulation *s, const brc_occasion *now)
 {
     return brc_loads_prescribe(s, now->t);
@@ -62,10 +88,17 @@ static brc_status work(brc_simulation *s, const brc_occasion *now)
     return BRC_OK;
 }
 
-static const brc_hooked hooked[] = {
-    {.hook = BRC_HOOK_PLACE, .call = place},      {.hook = BRC_HOOK_OPEN_STEP, .call = open_step},
-    {.hook = BRC_HOOK_CLOSE, .call = close_step}, {.hook = BRC_HOOK_FORCE, .order = BRC_FORCE_OF_LOADS, .call = push},
-    {.hook = BRC_HOOK_BOOK, .call = book},        {.hook = BRC_HOOK_LEDGER, .call = work}};
+static const brc_hooked hooked[] = {{.hook = BRC_HOOK_ENTER, .call = enter},
+                                    {.hook = BRC_HOOK_LEAVE, .plain = leave},
+                                    {.hook = BRC_HOOK_STORE, .call = store},
+                                    {.hook = BRC_HOOK_STRETCH, .call = store},
+                                    {.hook = BRC_HOOK_CONSTRAIN, .call = constrain},
+                                    {.hook = BRC_HOOK_PLACE, .call = place},
+                                    {.hook = BRC_HOOK_OPEN_STEP, .call = open_step},
+                                    {.hook = BRC_HOOK_CLOSE, .call = close_step},
+                                    {.hook = BRC_HOOK_FORCE, .order = BRC_FORCE_OF_LOADS, .call = push},
+                                    {.hook = BRC_HOOK_BOOK, .call = book},
+                                    {.hook = BRC_HOOK_LEDGER, .call = work}};
 const brc_effect brc_held_faces_effect = {
     .name = "prescribed faces",
     .in = faces,
@@ -79,4 +112,11 @@ const brc_effect brc_pushes_effect = {
     .name = "forces on elements", .in = pushed, .fields = (const brc_field_table *const[]){&brc_push_fields, NULL}};
 const brc_effect brc_turns_effect = {
     .name = "prescribed rotations", .in = turned, .fields = (const brc_field_table *const[]){&brc_turn_fields, NULL}};
-const brc_effect brc_stage_loads_effect = {BRC_HOOKED(hooked)};
+/* Load kinds that ask for fields, and stages whose velocities they slow. */
+static void ask(brc_wants *out, const int32_t *material)
+{
+    (void)material;
+    out->face_loads = faces(out) || tractions(out);
+}
+const brc_effect brc_stage_loads_effect = {
+    .ask = ask, .create = brc_load_passes_make, .free = release, BRC_HOOKED(hooked)};

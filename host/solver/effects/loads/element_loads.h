@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_ELEMENT_LOADS_H
 #define BRC_SOLVER_ELEMENT_LOADS_H
 
-#include "../../run/simulation_internal.h"
+#include "../../core/simulation_internal.h"
 
 /* An element of a load's set, with its storage row. */
 typedef struct brc_load_member {
@@ -26,6 +26,8 @@ void brc_element_loads_free(brc_loads *loads);
 
 /* Add the forces of all pushes at time t to `force`, and book their work. */
 brc_status brc_pushes_apply(brc_simulation *s, const brc_force_request *r);
+/* All that loads remember. */
+brc_status brc_loads_store(brc_simulation *s, brc_state_store *store);
 /* Moments of all turns, which then balance the torques they meet, and their work. */
 brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r);
 /* Bring orientations (statics, and the jump at the start of a stage) and spins to time t. */

@@ -2,12 +2,14 @@
 #ifndef BRC_SOLVER_LOAD_FIELDS_H
 #define BRC_SOLVER_LOAD_FIELDS_H
 
-#include "../../run/simulation_internal.h"
+#include "../../core/simulation_internal.h"
 
 /* Of brc_held_faces (its elements, its faces), brc_held_load, brc_traction_load, brc_imposed_load, brc_push_load,
  * brc_turn_load. */
 extern const brc_field_table brc_held_element_fields, brc_held_face_fields, brc_held_load_fields, brc_traction_fields,
     brc_imposed_fields, brc_push_fields, brc_turn_fields;
+/* Passes over all lists of all loads. */
+brc_status brc_load_passes_make(brc_simulation *s);
 /* Room for a list of n things. */
 brc_status brc_load_fields_create(brc_simulation *s, const brc_field_table *table, int64_t n, void *list);
 

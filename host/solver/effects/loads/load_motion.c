@@ -88,3 +88,12 @@ brc_status brc_loads_work(brc_simulation *s, double *out)
     *out = sum;
     return BRC_OK;
 }
+
+brc_status brc_force_held_energy(brc_simulation *s, double *out)
+{
+    brc_held_faces *h = &s->loads.held;
+    *out = 0;
+    if (!h->n_faces) return BRC_OK;
+    BRC_TRY(brc_pass_run(s->pass.held_energy, h->n_elements));
+    return brc_vector_sum(s, h->energy, h->n_faces, out);
+}

@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_LOAD_VALUES_H
 #define BRC_SOLVER_LOAD_VALUES_H
 
-#include "../../run/simulation_internal.h"
+#include "../../core/simulation_internal.h"
 
 /* value + gradient (x - origin), in the components of the load; its components as bits 1 2 4. */
 void brc_load_direction(const brc_load *load, const double *x, double out[3]);

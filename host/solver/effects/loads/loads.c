@@ -3,7 +3,7 @@
 #include "element_loads.h"
 #include "load_fields.h"
 #include "load_values.h"
-#include "loaded_faces.h"
+#include "../../core/loaded_faces.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,19 +11,6 @@
 static bool is_element_motion(const brc_load *load)
 {
     return load->kind == BRC_LOAD_ELEMENT_DISPLACEMENT || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
-}
-
-/* Temporary host arrays of a list of n entries, uploaded in one go. */
-brc_status brc_load_upload_components(brc_simulation *s, brc_buffer *out, const int32_t *bits, int32_t n)
-{
-    double *flags = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &flags, 3 * (int64_t)n, "component flags"));
-    for (int32_t i = 0; i < n; ++i)
-        for (int c = 0; c < 3; ++c)
-            flags[3 * (int64_t)i + c] = bits[i] >> c & 1;
-    const brc_status status = brc_upload_coeff(s, out, flags, 3 * (int64_t)n);
-    brc_memory_free(flags);
-    return status;
 }
 
 /* Tractions of one load, summed per element over the components that are not held. */
@@ -91,16 +78,6 @@ cleanup:
     brc_memory_free(total);
     brc_memory_free(moment);
     return status;
-}
-
-brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, const brc_load *load, int64_t n)
-{
-    return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                    "stage '%s': the %s of '%s' prescribes components of %lld elements that another load of the stage "
-                    "prescribes too; give each "
-                    "component of an element to one load",
-                    stage->name, load->kind == BRC_LOAD_ELEMENT_ROTATION ? "rotation" : "motion", load->set,
-                    (long long)n);
 }
 
 static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const int32_t *row, const int32_t *bits,

@@ -29,11 +29,22 @@ static brc_status store(brc_simulation *s, const brc_occasion *now)
     return brc_strikers_store_state(s, now->store);
 }
 
+static brc_status kicked(brc_simulation *s, const brc_occasion *now)
+{
+    const brc_strikers *t = s->strikers;
+    brc_buffer *const all[] = {t->displacement, t->orientation, t->momentum, t->motion, t->pose, t->moved};
+    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+        BRC_TRY(now->store->field(now->store, all[k]));
+    return BRC_OK;
+}
+
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_PLACE, .plain = brc_strikers_prescribe},
                                     {.hook = BRC_HOOK_ADVANCE, .call = advance},
                                     {.hook = BRC_HOOK_BOOK, .call = book},
                                     {.hook = BRC_HOOK_LEDGER, .call = energies},
-                                    {.hook = BRC_HOOK_STORE, .call = store}};
+                                    {.hook = BRC_HOOK_STORE, .call = store},
+                                    {.hook = BRC_HOOK_STRETCH, .call = store},
+                                    {.hook = BRC_HOOK_KICKED, .call = kicked}};
 const brc_effect brc_strikers_effect = {.name = "walls and strikers",
                                         .in = in,
                                         .fields = (const brc_field_table *const[]){&brc_striker_fields, NULL},

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_STRIKERS_H
 #define BRC_SOLVER_STRIKERS_H
 
-#include "../../run/simulation.h"
+#include "../../simulation.h"
 
 /* Where a striker is and how it moves, in the frame of space. */
 typedef struct brc_striker_now {

@@ -3,8 +3,8 @@
 #define BRC_SOLVER_STRIKERS_INTERNAL_H
 
 #include "../../../../preprocess/shapes/convex.h"
-#include "../../run/simulation_internal.h"
-#include "../../run/state_store.h"
+#include "../../core/simulation_internal.h"
+#include "../../core/state_store.h"
 #include "strikers.h"
 
 /* What a piece of a striker is for contact. */

@@ -1,5 +1,5 @@
 #include "beam_closure.h"
-#include "../../run/ahead.h"
+#include "../../effects/fracture/ahead.h"
 #include "beam_softening.h"
 
 enum { LEAN = 7 }; /* beam_closure.cl */

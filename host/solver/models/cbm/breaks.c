@@ -99,7 +99,7 @@ brc_status brc_cbm_break_bonds(brc_simulation *s, double half_kick)
                     {"step", BRC_INT(moment)}, {"half_kick", BRC_STATE(half_kick)}));
     BRC_TRY(brc_beam_softening_end(s, moment));
     BRC_TRY(brc_beam_closure_begin(s, moment, half_kick));
-    BRC_TRY(brc_loads_zero_turned(s, s->torque)); /* prescribed rotations balance theirs */
+    BRC_TRY(brc_constrain(s, NULL, s->torque)); /* prescribed rotations balance theirs */
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_broken(s, half_kick));
     brc_phase_within(s, before);

@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_MODELS_CBM_CBM_H
 #define BRC_SOLVER_MODELS_CBM_CBM_H
 
-#include "../../run/simulation_internal.h"
+#include "../../core/simulation_internal.h"
 
 /* ---- passes.c ---- */
 brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);

@@ -18,6 +18,11 @@ static void explain_loss(const brc_simulation *s, char *text, size_t size)
         "beams that were stretched or bent far beyond their law (sections turned by more than a right angle)");
 }
 
+static double bond_radius(const brc_simulation *s, int64_t e)
+{
+    return brc_beam_of_element(s, e)->radius;
+}
+
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_MOVED,
                                      .order = BRC_MOVED_BONDS,
                                      .phase = BRC_PHASE_FRACTURE,
@@ -44,6 +49,7 @@ const brc_bond_model brc_cbm = {
     .break_bonds = brc_cbm_break_bonds,
     .cohesion = &brc_cbm_cohesion,
     .limits = brc_cbm_limits,
+    .bond_radius = bond_radius,
     .statics = &statics,
     .step_bound = &step_bound,
     .conserves = true,

@@ -305,7 +305,7 @@ brc_status brc_softening_move(brc_simulation *s)
     const int32_t n = s->layout->n_rows;
     BRC_TRY(brc_pass_run(f->coast, n));
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
-        BRC_TRY(brc_dlsm_fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
+        BRC_TRY(s->model->fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k));
     }
     return BRC_OK;

@@ -4,8 +4,8 @@
 #ifndef BRC_SOLVER_CELL_SOFTENING_H
 #define BRC_SOLVER_CELL_SOFTENING_H
 
-#include "../../run/simulation_internal.h"
-#include "../../run/state_store.h"
+#include "../../core/simulation_internal.h"
+#include "../../core/state_store.h"
 #include "../../effects/fracture/strengths.h"
 
 extern const brc_field_table brc_softening_fields;

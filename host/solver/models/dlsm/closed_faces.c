@@ -173,7 +173,7 @@ brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, 
     const bool whole = brc_pass_is_whole(s, list, ring), deltas = r->rings && brc_rims_add(s, r->rings);
     const int32_t n = whole ? s->n_groups : list->n[ring];
     return BRC_RUN(f->flux, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])},
-                   {"fluxes", BRC_INT(gains ? brc_rims_records(rings) : 0)});
+                   {"fluxes", BRC_INT(deltas ? brc_rims_records(rings) : 0)});
 }
 
 brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)

@@ -5,8 +5,8 @@
 #ifndef BRC_SOLVER_CLOSED_FACES_H
 #define BRC_SOLVER_CLOSED_FACES_H
 
-#include "../../effects/fracture/rings.h"
-#include "../../run/state_store.h"
+#include "../../core/rings.h"
+#include "../../core/state_store.h"
 
 extern const brc_field_table brc_closed_face_fields;
 

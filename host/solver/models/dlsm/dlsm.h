@@ -2,8 +2,8 @@
 #ifndef BRC_SOLVER_MODELS_DLSM_DLSM_H
 #define BRC_SOLVER_MODELS_DLSM_DLSM_H
 
-#include "../../effects/fracture/rings.h"
-#include "../../run/simulation_internal.h"
+#include "../../core/rings.h"
+#include "../../core/simulation_internal.h"
 
 /* ---- passes.c ---- */
 brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);

@@ -58,6 +58,7 @@ const brc_bond_model brc_dlsm = {
     .evaluate = brc_dlsm_evaluate,
     .energies = brc_dlsm_energies,
     .refresh = brc_dlsm_refresh,
+    .fluxes_of_state = brc_dlsm_fluxes_of_state,
     .floor_bytes = brc_dlsm_floor_bytes,
     .strain_stress = brc_dlsm_strain_stress,
     .face_displacement = brc_dlsm_face_displacement,

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_MODELS_DLSM_RIMS_H
 #define BRC_SOLVER_MODELS_DLSM_RIMS_H
 
-#include "../../effects/fracture/rings.h"
+#include "../../core/rings.h"
 
 /* Energies around breaks are those of elements and of bonds apart: of dlsm, where no face softens; of open faces cells
  * keep half each. */

@@ -1,7 +1,7 @@
 /* Whole impacts: bodies of beams on a wall, strikers given as meshes, and what is refused. */
 #include "contact_case.h"
 #include "../fracture/fracture_case.h"
-#include "../../run/state_cases.h"
+#include "../../core/state_cases.h"
 #include "../../../../host/solver/effects/fracture/fragments.h"
 #include "../../../../host/solver/effects/strikers/strikers.h"
 #include <math.h>

@@ -212,7 +212,7 @@ static double energy_at(bench_case *c, const double *u)
 }
 
 /* Five-point differences are exact for the energy's quartic dependence on one component; 1e-9: rounding of W, 1e-16 of
- * a sum some thousand forces times the step, over that step (as tests/solver/run/test_force.c). */
+ * a sum some thousand forces times the step, over that step (as tests/solver/core/test_force.c). */
 static void force_is_the_gradient_of_the_energy_of_a_broken_body(void **state)
 {
     (void)state;

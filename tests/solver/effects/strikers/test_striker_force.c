@@ -1,6 +1,6 @@
 /* Free strikers under a prescribed force: alone, in gravity, on elastic columns; what is booked, and what a checkpoint
  * has of it. */
-#include "../../run/state_cases.h"
+#include "../../core/state_cases.h"
 #include "../../../../host/solver/effects/strikers/strikers_internal.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* Frames of elements of dlsm-published: what holds them to the solid as it turns (docs/notebook/theory.md T3). E 1 Pa,
  * nu 0.2, density 1 kg/m^3. */
 #include "../../support.h"
-#include "../../../../host/solver/run/simulation_internal.h"
+#include "../../../../host/solver/core/simulation_internal.h"
 #include <math.h>
 #include <stdlib.h>
 

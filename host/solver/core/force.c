@@ -1,0 +1,55 @@
+/* One evaluation of all forces: those of the model's bonds, then what effects add, in the order of
+ * their hook. */
+#include "rings.h"
+
+brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
+{
+    BRC_TRY(s->model->evaluate(s, r));
+    if (r->homogeneous) return brc_constrain(s, r->force, r->torque);
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_FORCE, &(brc_occasion){.request = r}));
+    if (s->model->late_tractions) BRC_TRY(s->model->late_tractions(s, r));
+    brc_force_request all = *r;
+    if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
+        BRC_TRY(s->model->breaking->replace_around(s, r->rings));
+        all.force = s->force, all.torque = s->torque;
+        r = &all;
+    }
+    return brc_hook_run(s, BRC_HOOK_BOOK, &(brc_occasion){.request = r});
+}
+
+brc_force_request brc_force_request_of_state(brc_simulation *s, brc_booking book)
+{
+    const bool is_static = s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_STATIC;
+    return (brc_force_request){.displacement = s->displacement,
+                               .force = s->force,
+                               .orientation = s->orientation,
+                               .torque = s->torque,
+                               .finite = !s->scene->model.small_rotations,
+                               .book = book,
+                               .t = is_static ? s->load_factor : s->time};
+}
+
+brc_status brc_force_of_state(brc_simulation *s, brc_booking book)
+{
+    const brc_force_request request = brc_force_request_of_state(s, book);
+    return brc_force_evaluate(s, &request);
+}
+
+brc_status brc_force_around_breaks(brc_simulation *s, const brc_rings *rings)
+{
+    brc_force_request request = brc_force_request_of_state(s, BRC_BOOK_START);
+    request.rings = rings;
+    if (!rings->whole_force) request.force = rings->force, request.torque = rings->torque;
+    return brc_force_evaluate(s, &request);
+}
+
+brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation)
+{
+    *stabilisation = 0;
+    return s->model->energies(s, elastic, stabilisation);
+}
+
+brc_status brc_force_refresh(brc_simulation *s)
+{
+    return brc_effects_follow_surfaces(s) && s->model->refresh ? s->model->refresh(s) : BRC_OK;
+}

@@ -1,0 +1,26 @@
+/* Where the time of the steps of dynamic stages goes: a watch that is handed from phase to phase. Wall seconds of the
+ * calling thread, so what a device only queues (opencl) counts for the phase that waits for it. */
+#ifndef BRC_SOLVER_PHASES_H
+#define BRC_SOLVER_PHASES_H
+
+#include "../simulation.h"
+
+typedef enum brc_step_phase {
+    BRC_PHASE_NONE,     /* no steps are done: nothing is counted */
+    BRC_PHASE_MOTION,   /* integrator, prescribed motion, guard's looks, strikers */
+    BRC_PHASE_FORCES,   /* elements, bonds and loads, once a step */
+    BRC_PHASE_SEARCH,   /* who may touch whom */
+    BRC_PHASE_PAIRS,    /* contact of pairs, and what they give to elements and strikers */
+    BRC_PHASE_FRACTURE, /* who breaks, what breaks change (forces that are evaluated again included), faces that
+                           soften */
+    BRC_PHASE_LEDGER,   /* energies, and what the guard reads */
+    BRC_PHASE_OUTPUT,   /* samples, frames, checkpoints */
+    BRC_N_PHASES
+} brc_step_phase;
+
+/* "motion", "forces", "search", ...; "none". */
+const char *brc_phase_name(brc_step_phase phase);
+/* Seconds in a phase so far; 0 for BRC_PHASE_NONE. */
+double brc_simulation_phase_seconds(const brc_simulation *simulation, brc_step_phase phase);
+
+#endif

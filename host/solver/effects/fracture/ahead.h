@@ -1,0 +1,29 @@
+/* Steps ahead of what is known. Whether bonds of cells are to break in a step is decided on the device; the host acts
+ * on it, so it would have to wait in every step. On a device that works beside the host, stretches of steps in which
+ * nothing seems to break are taken as if nothing did, and counted; the host asks once, at their end. Where bonds were
+ * to break after all, everything is put back to the start of the stretch and its steps are taken again with a question
+ * each: the same bits in either case. A stretch is no longer than the steps before it in which nothing broke, so at
+ * most half of all steps are taken in vain. Beams break on the device, and the host is to know where surfaces may
+ * touch: there it is the count of broken ones that is asked for. */
+#ifndef BRC_SOLVER_AHEAD_H
+#define BRC_SOLVER_AHEAD_H
+
+#include "../../simulation.h"
+
+enum { BRC_AHEAD_FEWEST = 16, BRC_AHEAD_MOST = 256 };
+
+/* Steps, of at most n, that may now be taken ahead; 0: each is to be known. */
+int64_t brc_ahead_steps(const brc_simulation *s, int64_t n);
+/* A stretch begins: what its steps change is copied on the device. */
+brc_status brc_ahead_begin(brc_simulation *s);
+/* It has ended. *stands: nothing was to break; else the simulation is where it was at the beginning. */
+brc_status brc_ahead_end(brc_simulation *s, bool *stands);
+/* A stretch is being taken ... */
+bool brc_ahead_is_on(const brc_simulation *s);
+/* ... of beams none of which is broken. */
+bool brc_ahead_is_whole(const brc_simulation *s);
+/* The bonds that a step marked: found [count] of elements or groups; *n: their sum, 0 while steps are taken ahead. */
+brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, double *n);
+void brc_ahead_free(brc_simulation *s);
+
+#endif

@@ -1,0 +1,151 @@
+/* A static stage: its increments, or its events. */
+#include "statics.h"
+#include "../run/look.h"
+#include "static_events.h"
+#include <math.h>
+
+/* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of
+ * equal increments costs little more than one. v->before holds the displacement before the last increment on entry,
+ * before this one on return. */
+static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t increment)
+{
+    const int64_t bytes = 3 * (int64_t)s->layout->n_rows * v->state_bytes;
+    const brc_unknowns state = {s->displacement, NULL};
+    if (increment == 1 || brc_solves_rotations(s->model)) return brc_buffer_copy(v->before, s->displacement, bytes);
+    BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, bytes)); /* u becomes 2 u - before */
+    BRC_TRY(brc_unknowns_add(s, -1, (brc_unknowns){v->before, NULL}, state));
+    BRC_TRY(brc_unknowns_add(s, 1, v->z, state));
+    return brc_buffer_copy(v->before, v->z.move, bytes);
+}
+
+/* Scale the load so that the worst element of all parts is at the asked fraction of its limit: in proportion, and again
+ * from where that led, since limits see strains of second order, which do not grow as the load. */
+static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
+{
+    enum { MOST_SCALINGS = 12 };
+    static const double near = 1e-6; /* of the fraction asked for: below what any strength is known to */
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
+    double ratio;
+    BRC_TRY(brc_statics_failure(n, part, &ratio));
+    if (!(ratio > 0))
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it",
+                        stage->name);
+    for (int i = 0; i < MOST_SCALINGS && !(fabs(ratio / stage->to_failure - 1) <= near); ++i) {
+        const double by = stage->to_failure / ratio;
+        for (int32_t k = 0; k < n; ++k) {
+            BRC_TRY(brc_statics_scale(part[k], &run[k].vectors, by));
+            part[k]->load_factor *= by;
+            BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
+        }
+        BRC_TRY(brc_statics_failure(n, part, &ratio));
+        if (!(ratio > 0))
+            return BRC_FAIL(context, BRC_PHYSICS_STOPPED, "stage '%s': the failure ratio is %g at %g times the load",
+                            stage->name, ratio, part[0]->load_factor);
+    }
+    for (int32_t k = 0; k < n; ++k)
+        part[k]->step += 1;
+    brc_log(context, BRC_LOG_INFO,
+            "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name,
+            part[0]->load_factor, ratio);
+    BRC_TRY(brc_look_here(part[0], part[0]->step - 1));
+    return brc_notify_sample(part[0]);
+}
+
+/* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the
+ * next. */
+brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_state_store *store)
+{
+    BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
+    BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
+    return brc_store_double(store, "static.reference", &run->reference);
+}
+
+/* Vectors of the solver for every part; a stage that begins is at rest. */
+static brc_status begin_runs(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_state_store *resumed)
+{
+    for (int32_t k = 0; k < n; ++k) {
+        brc_simulation *s = part[k];
+        if (!resumed) {
+            s->static_report = (brc_static_report){0};
+            BRC_TRY(brc_buffer_fill_zero(s->velocity));
+        }
+        BRC_TRY(brc_solve_vectors_create(s, &run[k].vectors));
+        s->static_run = &run[k];
+        if (!resumed) continue;
+        resumed->part = k;
+        BRC_TRY(brc_statics_store_run(s, &run[k], resumed));
+    }
+    return BRC_OK;
+}
+
+/* The run may be left and taken up again after any increment; the one that scales the load to failure counts as one
+ * more. */
+static brc_status tell_pause(brc_simulation *s, int32_t increments)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    const bool done = s->step >= increments + (stage->to_failure > 0);
+    const bool ended = s->note[s->stage].ended;
+    BRC_TRY(brc_notify_pause(s, brc_simulation_is_to_stop(s) ? BRC_PAUSE_INTERRUPTED
+                                : ended                      ? BRC_PAUSE_ENDED
+                                : done                       ? BRC_PAUSE_DONE
+                                                             : BRC_PAUSE_GOING));
+    if (!brc_simulation_is_to_stop(s)) return BRC_OK;
+    return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name,
+                    (long long)s->step, (int)increments);
+}
+
+static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
+{
+    const brc_stage *stage = brc_current_stage(part[0]);
+    const int32_t increments = stage->increments > 0 ? stage->increments : 1;
+    const bool *ended = &part[0]->note[part[0]->stage].ended; /* by a look */
+    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments && !*ended; ++i) {
+        for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
+            part[k]->load_factor = (double)i / increments;
+            BRC_TRY(predict(part[k], &run[k].vectors, i));
+            BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
+            part[k]->step = i;
+        }
+        BRC_TRY(brc_look_here(part[0], i - 1));
+        BRC_TRY(brc_notify_sample(part[0]));
+        BRC_TRY(tell_pause(part[0], increments));
+    }
+    if (!(stage->to_failure > 0) || part[0]->step > increments || *ended) return BRC_OK;
+    BRC_TRY(go_to_failure(n, part, run, progress));
+    return tell_pause(part[0], increments);
+}
+
+brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_store *resumed)
+{
+    brc_context *context = part[0]->context;
+    const brc_stage *stage = brc_current_stage(part[0]);
+    brc_static_run *run = NULL;
+    brc_progress *progress = NULL;
+    brc_status status = BRC_OK;
+    double n_bonds = 0;
+    for (int32_t k = 0; k < n; ++k)
+        if (!part[k]->model->statics)
+            return BRC_FAIL(context, BRC_BAD_INPUT, "stage '%s': model %s has no static stages; use a dynamic one",
+                            stage->name, brc_model_name(part[k]->scene->model.kind));
+    if (stage->most_events > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "events"));
+    if (stage->to_failure > 0) BRC_TRY(brc_statics_refuse_unscalable(n, part, "to_failure"));
+    for (int32_t k = 0; k < n; ++k)
+        n_bonds += (double)part[k]->domain->n_bonds;
+    BRC_TRY_OR(cleanup,
+               brc_progress_create(context, &progress, stage->name, 0, "iterations", n_bonds / n, "bond updates/s"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &run, n, "static stage"));
+    BRC_TRY_OR(cleanup, begin_runs(n, part, run, resumed));
+    if (!resumed) BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
+    status =
+        stage->most_events > 0 ? brc_static_events_run(n, part, run, progress) : run_increments(n, part, run, progress);
+cleanup:
+    brc_progress_finish(&progress);
+    for (int32_t k = 0; k < n; ++k)
+        part[k]->static_run = NULL;
+    for (int32_t k = 0; run && k < n; ++k)
+        brc_solve_vectors_free(&run[k].vectors);
+    brc_memory_free(run);
+    return status;
+}
