@@ -95,6 +95,7 @@
     X(sort_count)                                                                                                      \
     X(sort_move)                                                                                                       \
     X(contact_extent)                                                                                                  \
+    X(contact_most)                                                                                                    \
     X(contact_largest)                                                                                                 \
     X(contact_drift)                                                                                                   \
     X(contact_drift_mean)                                                                                              \

@@ -16,14 +16,21 @@ struct brc_ahead {
     brc_buffer *copy[MOST_KEPT];
     char *numbers; /* of the host, one after another, each list behind its number of rows */
     int64_t used, at;
-    int64_t calm;  /* steps since the last break */
-    int64_t first; /* step before the stretch */
-    double broken; /* half-edges of beams that were broken as it began */
-    bool broke;    /* some beam is broken */
-    bool on, open; /* a stretch is being taken; the simulation's `open` at its start */
+    int64_t calm;       /* steps since the last break */
+    int64_t first;      /* step before the stretch */
+    double broken;      /* half-edges of beams that were broken as it began, counted ... */
+    int64_t counted_at; /* ... after these steps of the run */
+    int32_t counted_in; /* ... in this stage */
+    bool broke;         /* some beam is broken */
+    bool on, open;      /* a stretch is being taken; the simulation's `open` at its start */
 };
 
 /* ---- what is kept: the store of checkpoints (state_store.h), in memory ---- */
+
+static bool is_of_beams(const brc_simulation *s)
+{
+    return s->fracture && !s->fracture->cells;
+}
 
 static struct brc_ahead *ahead_of(brc_state_store *store)
 {
@@ -81,7 +88,7 @@ static brc_status walk(brc_simulation *s, bool loading)
     a->at = 0;
     a->n = 0;
     BRC_TRY(brc_simulation_walk_motion(s, &a->store));
-    if (!s->fracture->cells) /* bonds of beams break on the device before anyone knows */
+    if (is_of_beams(s)) /* bonds of beams break on the device before anyone knows */
         BRC_TRY(brc_fracture_store_stretch(s, &a->store));
     if (s->model->cohesion && s->model->cohesion->store_ahead) BRC_TRY(s->model->cohesion->store_ahead(s, &a->store));
     if (s->strikers) BRC_TRY(brc_strikers_store_state(s, &a->store));
@@ -97,17 +104,14 @@ static bool works_beside(const brc_simulation *s)
     return brc_device_get_info(s->device)->kind == BRC_DEVICE_OPENCL;
 }
 
-static bool is_of_beams(const brc_simulation *s)
-{
-    return s->fracture && !s->fracture->cells;
-}
-
 /* Softening and noise damping ask in every step. Without contact beams ask nobody, but broken ones that bear cost
  * passes of their own, which a stretch before the first break leaves out. */
 static bool may(const brc_simulation *s)
 {
-    const bool worth = s->fracture && (!is_of_beams(s) || s->contact ||
-                                       (brc_wants_lost_beams(&s->wants) && !(s->ahead && s->ahead->broke)));
+    const bool surfaces = s->contact && !s->fracture;
+    const bool worth =
+        surfaces || (s->fracture && (!is_of_beams(s) || s->contact ||
+                                     (brc_wants_lost_beams(&s->wants) && !(s->ahead && s->ahead->broke))));
     return worth && !(s->model->cohesion && s->model->cohesion->is_on(s)) &&
            brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && !s->wants.noise && works_beside(s);
 }
@@ -117,9 +121,10 @@ int64_t brc_ahead_steps(const brc_simulation *s, int64_t n)
     const bool asks = s->fracture && (s->fracture->cells || s->contact);
     const int64_t calm = !asks ? BRC_AHEAD_MOST : s->ahead ? s->ahead->calm : 0, quiet = brc_contact_quiet_steps(s);
     int64_t most = calm < BRC_AHEAD_MOST ? calm : BRC_AHEAD_MOST;
-    if (quiet < most) most = quiet; /* the host looks for pairs */
+    if (quiet < most) most = quiet;
     if (most < BRC_AHEAD_FEWEST || n < 2 || !may(s)) return 0;
-    return n < most ? n : most;
+    if (n < most) most = n;
+    return !s->fracture && brc_contact_next_look(s) >= most ? 0 : most; /* without a look nobody asks */
 }
 
 bool brc_ahead_is_on(const brc_simulation *s)
@@ -136,6 +141,7 @@ static brc_status ahead_made(brc_simulation *s, struct brc_ahead **out)
     if (!s->ahead) {
         BRC_TRY(BRC_ALLOCATE(s->context, &s->ahead, 1, "steps ahead"));
         s->ahead->simulation = s;
+        s->ahead->counted_at = -1;
     }
     *out = s->ahead;
     return BRC_OK;
@@ -146,13 +152,15 @@ brc_status brc_ahead_begin(brc_simulation *s)
     struct brc_ahead *a;
     BRC_TRY(ahead_made(s, &a));
     if (is_of_beams(s)) {
-        BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, &a->broken));
+        if (a->counted_at != s->total_steps || a->counted_in != s->stage)
+            BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, &a->broken));
         a->broke = a->broken > 0;
-    } else {
+    } else if (s->fracture) {
         if (!a->found) BRC_TRY(brc_new_state(s, &a->found, s->layout->n_rows, "marks of steps ahead"));
         BRC_TRY(brc_buffer_fill_zero(a->found));
     }
     BRC_TRY(walk(s, false));
+    if (s->contact) brc_contact_begin_stretch(s);
     a->first = s->step;
     a->open = s->open;
     a->on = true;
@@ -163,6 +171,8 @@ brc_status brc_ahead_begin(brc_simulation *s)
 static brc_status count_stretch(brc_simulation *s, double *n)
 {
     const struct brc_ahead *a = s->ahead;
+    *n = 0;
+    if (!s->fracture) return BRC_OK;
     if (!is_of_beams(s)) return brc_vector_sum(s, a->found, s->layout->n_rows, n);
     BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, n));
     *n -= a->broken;
@@ -172,22 +182,31 @@ static brc_status count_stretch(brc_simulation *s, double *n)
 brc_status brc_ahead_end(brc_simulation *s, bool *stands)
 {
     struct brc_ahead *a = s->ahead;
-    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_cell_breaks *c = s->fracture ? s->fracture->cells : NULL;
     const int64_t last = s->step;
     double n;
+    bool seen = true;
     a->on = false;
     BRC_TRY(count_stretch(s, &n));
-    *stands = !(n > 0);
-    if (*stands && !c) a->calm += last - a->first;
-    if (*stands) return BRC_OK;
+    if (s->contact) BRC_TRY(brc_contact_end_stretch(s, &seen));
+    *stands = !(n > 0) && seen;
+    if (*stands) {
+        if (!c) a->calm += last - a->first;
+        a->counted_at = s->total_steps;
+        a->counted_in = s->stage;
+        return BRC_OK;
+    }
     BRC_TRY(walk(s, true));
     s->open = a->open;
-    a->calm = 0;
-    a->broke = true;
+    a->counted_at = -1;
+    if (n > 0) {
+        a->calm = 0;
+        a->broke = true;
+    }
     if (c) BRC_TRY(brc_buffer_fill_zero(c->mark));
     if (c) BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
-    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: bonds break in them",
-            (long long)s->step + 1, (long long)last);
+    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: %s in them", (long long)s->step + 1,
+            (long long)last, n > 0 ? "bonds break" : "surfaces come near");
     return BRC_OK;
 }
 
