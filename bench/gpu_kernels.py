@@ -22,7 +22,7 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PRECISIONS = ("double", "mixed", "single")
 LIBRARY = "/usr/lib/clc/nvptx64--nvidiacl.bc"
-GROUP = 128  # work-items a group on a GPU (host/device/device_opencl.c)
+GROUP = 256  # work-items a group on a GPU (host/device/gpu_layout.h)
 # A streaming multiprocessor of sm_80 and sm_90: registers, given out to warps of 32 in steps of 256; warps at most.
 REGISTERS, REGISTER_STEP, WARPS, WARP = 65536, 256, 64, 32
 COLUMNS = ["kernel", "arch", "precision", "many_materials", "registers", "occupancy_percent", "spill_stores_bytes", "spill_loads_bytes",
@@ -54,7 +54,7 @@ def ptx_of(precision, many, folder):
     resources = subprocess.run(["clang-14", "-print-resource-dir"], capture_output=True, text=True, check=True).stdout.strip()
     subprocess.run(["clang-14", "-cc1", "-x", "cl", "-cl-std=CL1.2", "-triple", "nvptx64-unknown-nvcl", "-finclude-default-header",
                     "-resource-dir", resources, "-internal-isystem", f"{resources}/include", "-I", f"{ROOT}/kernels",
-                    "-D", "__OPENCL_VERSION__=120", "-D", "BRC_LANES=1", "-D", "BRC_SLICE=32",
+                    "-D", "__OPENCL_VERSION__=120", "-D", "BRC_LANES=1", "-D", "BRC_SLICE=32", "-D", f"BRC_GROUP={GROUP}",
                     "-D", f"BRC_PRECISION={PRECISIONS.index(precision)}", "-D", f"BRC_MANY_MATERIALS={many}",
                     "-O2", "-ffp-contract=on", "-fdenormal-fp-math-f32=preserve-sign", "-target-cpu", "sm_80", "-target-feature", "+ptx72",
                     "-Wno-linker-warnings", "-mlink-builtin-bitcode", LIBRARY, "-S", "-o", ptx, source], check=True)

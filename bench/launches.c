@@ -27,29 +27,36 @@ static double price_of(const brc_device_price *p, double launches, double waits,
     return launches * p->launch_s + waits * p->wait_s + bytes / fmin(p->copy_bandwidth, p->pass_bandwidth);
 }
 
-brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes, brc_device_price *out)
+/* One thread: processor time, which other programs on the machine do not lengthen. */
+static double now(const brc_launches_request *r)
+{
+    return r->n_threads == 1 ? brc_processor_s() : brc_clock_s();
+}
+
+/* The constants of an open device but for pass_bandwidth, which is that of a model: infinite. */
+static brc_status measure_constants(const brc_launches_request *r, brc_device *device, brc_device_price *out)
 {
     brc_status status = BRC_OK;
     brc_buffer *x = NULL, *y = NULL;
     brc_kernel *copy = NULL;
     double number[8];
     out->pass_bandwidth = INFINITY;
-    BRC_TRY(brc_device_copy_bandwidth(device, bandwidth_bytes, &out->copy_bandwidth));
+    BRC_TRY(brc_device_copy_bandwidth(device, r->bandwidth_bytes, &out->copy_bandwidth));
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &x, sizeof number, "bench numbers"));
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &y, sizeof number, "bench numbers"));
     BRC_TRY_OR(cleanup, brc_kernel_find(device, "vector_copy", &copy));
     for (int trial = 0; trial < 2; ++trial) { /* the first makes the kernel ready */
-        double start = brc_clock_s();
+        double start = now(r);
         for (int k = 0; k < TRIAL_LAUNCHES; ++k)
             BRC_TRY_OR(cleanup, BRC_LAUNCH(copy, 1, BRC_INT(1), BRC_BUF(x), BRC_BUF(y)));
         BRC_TRY_OR(cleanup, brc_device_wait(device));
-        out->launch_s = (brc_clock_s() - start) / TRIAL_LAUNCHES;
-        start = brc_clock_s();
+        out->launch_s = (now(r) - start) / TRIAL_LAUNCHES;
+        start = now(r);
         for (int k = 0; k < TRIAL_WAITS; ++k) {
             BRC_TRY_OR(cleanup, BRC_LAUNCH(copy, 1, BRC_INT(1), BRC_BUF(x), BRC_BUF(y)));
             BRC_TRY_OR(cleanup, brc_buffer_read(y, 0, number, 4));
         }
-        out->wait_s = fmax(0, (brc_clock_s() - start) / TRIAL_WAITS - out->launch_s);
+        out->wait_s = fmax(0, (now(r) - start) / TRIAL_WAITS - out->launch_s);
     }
 cleanup:
     brc_buffer_free(&x);
@@ -64,20 +71,21 @@ typedef struct {
 } step_work;
 
 /* Work of n steps, and the least seconds of a step of several samples. */
-static brc_status count_steps(brc_device *device, brc_simulation *simulation, int64_t n, brc_device_counts *work,
-                              double *seconds)
+static brc_status count_steps(const brc_launches_request *r, brc_device *device, brc_simulation *simulation,
+                              brc_device_counts *work, double *seconds)
 {
+    const int64_t n = r->n_steps;
     BRC_TRY(brc_simulation_begin_stage(simulation, 0));
     BRC_TRY(brc_simulation_advance(simulation, WARM_STEPS)); /* stretches of ahead.h have their length */
     *seconds = INFINITY;
     for (int k = 0; k < SAMPLES; ++k) {
         BRC_TRY(brc_simulation_wait(simulation));
         const brc_device_counts before = brc_device_counted(device);
-        const double start = brc_clock_s();
+        const double start = now(r);
         BRC_TRY(brc_simulation_advance(simulation, n));
         const brc_device_counts after = brc_device_counted(device);
         BRC_TRY(brc_simulation_wait(simulation));
-        *seconds = fmin(*seconds, (brc_clock_s() - start) / (double)n);
+        *seconds = fmin(*seconds, (now(r) - start) / (double)n);
         *work = (brc_device_counts){after.launches - before.launches, after.waits - before.waits,
                                     after.read_bytes - before.read_bytes, after.written_bytes - before.written_bytes,
                                     after.copied_bytes - before.copied_bytes};
@@ -127,7 +135,7 @@ static brc_status steps_of(brc_context *context, const brc_launches_request *r, 
         c.scene.contact = (brc_contact){.within = true, .rotation = true};
     }
     BRC_TRY(brc_simulation_create(context, &c.scene, domain, device, &simulation));
-    status = count_steps(device, simulation, r->n_steps, &out->work, &out->seconds);
+    status = count_steps(r, device, simulation, &out->work, &out->seconds);
     out->floor_bytes = brc_simulation_floor_bytes(simulation);
     brc_simulation_free(&simulation);
     return status;
@@ -139,7 +147,7 @@ static brc_status measure_price(brc_context *context, const brc_launches_request
 {
     brc_domain *small = NULL;
     step_work elastic;
-    BRC_TRY(brc_device_price_measure(device, r->bandwidth_bytes, out));
+    BRC_TRY(measure_constants(r, device, out));
     BRC_TRY(brc_cube_build(context, SMALL, brc_cube_is_of_spheres(model), &small));
     const brc_status status = steps_of(context, r, device, small, model, &effects[0], &elastic);
     brc_domain_free(&small);

@@ -34,7 +34,5 @@ typedef struct brc_launches_request {
 
 /* Adds a row for each model and effect. */
 brc_status brc_launches_measure(brc_context *context, const brc_launches_request *request, brc_rows *rows);
-/* The constants of an open device but for pass_bandwidth, which is that of a model: infinite. */
-brc_status brc_device_price_measure(brc_device *device, int64_t bandwidth_bytes, brc_device_price *out);
 
 #endif

@@ -322,11 +322,23 @@ static brc_status run_launches(const brc_session *session, const brc_arguments *
 static brc_status print_sectors(void *self, const brc_rows *rows)
 {
     const brc_row *row = &rows->rows[rows->n_rows - 1];
-    printf("%-32s %-14s %-7s %4.0f %8.3f %8.3f %8.1f %8.1f %8.1f\n", brc_row_text(row, "quantity"),
+    const bool card = strcmp(brc_row_text(row, "case"), "card") == 0;
+    if (card || strcmp(brc_row_text(row, "case"), "passes") == 0) {
+        printf("%-14s %-22s %-7s %8.4g cells: %6.0f bytes a bond, %6.0f from L2, %5.0f operations",
+               brc_row_text(row, "model"), brc_row_text(row, "quantity"), brc_row_text(row, "precision"),
+               brc_row_number(row, "elements"), brc_row_number(row, "floor_bytes_per_bond"),
+               brc_row_number(row, "cache_bytes_per_bond"), brc_row_number(row, "operations_per_bond"));
+        if (card)
+            printf("; %8.3g s a step, %5.2f G bonds/s, %3.0f %% of copy", brc_row_number(row, "seconds_by_model"),
+                   1e-9 * brc_row_number(row, "bond_updates_per_s"), 100 * brc_row_number(row, "of_copy_bandwidth"));
+        printf("\n");
+        return brc_rows_write(rows, self);
+    }
+    printf("%-32s %-14s %-7s %4.0f %8.3f %8.3f %8.1f %8.1f %8.1f %8.1f\n", brc_row_text(row, "quantity"),
            brc_row_text(row, "precision"), brc_row_text(row, "storage"), brc_row_number(row, "record_bytes"),
            brc_row_number(row, "sectors_per_gather"), brc_row_number(row, "fetched_over_wanted"),
-           brc_row_number(row, "group_128_bytes"), brc_row_number(row, "group_512_bytes"),
-           brc_row_number(row, "group_1024_bytes"));
+           brc_row_number(row, "group_128_bytes"), brc_row_number(row, "group_256_bytes"),
+           brc_row_number(row, "group_512_bytes"), brc_row_number(row, "group_1024_bytes"));
     fflush(stdout);
     return brc_rows_write(rows, self);
 }
@@ -348,7 +360,7 @@ static brc_status run_sectors(const brc_session *session, const brc_arguments *a
     BRC_TRY(brc_bench_take_number(context, "sizes", pieces[0], 8, 1e8, &number));
     request.size = (int64_t)number;
     printf("bytes of a record, sectors a gather, bytes fetched over wanted, bytes a half-edge where groups of 128, "
-           "512, 1024 fetch each sector once\n");
+           "256, 512, 1024 fetch each sector once; then passes and steps on a card\n");
     brc_rows rows = {.context = context};
     brc_status status = brc_sectors_measure(context, &request, &rows);
     return close_rows(status, &rows, folder);

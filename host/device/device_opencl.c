@@ -1,5 +1,6 @@
 /* OpenCL: the kernels are compiled at run time from one pasted text for the variant a run needs; everything goes
  * through one queue that keeps the order. */
+#include "gpu_layout.h"
 #include "opencl_build.h"
 #include "opencl_list.h"
 #include "opencl_profile.h"
@@ -11,9 +12,11 @@
 
 /* Work-items a group; docs/notebook/devices.md has the measurements. Never left to the driver: PoCL's own choice
  * crashed with wide types. */
-enum { GROUP_GPU = 128, GROUP_CPU = 64 };
-/* Elements a slice of the storage holds on a GPU; on a CPU as many as a work-item, and at least SLICE_CPU. */
-enum { SLICE_GPU = 32, SLICE_CPU = 8 };
+enum { GROUP_CPU = 64, FEWEST_OF_GROUP = 32 };
+/* What kernels put aside (kernels/portable.h) is up to 18 numbers of each work-item; GPUs have 48 KB for a group. */
+enum { MOST_WITH_ASIDE = 256 };
+/* Elements a slice of the storage holds on a CPU: as many as a work-item, and at least these. */
+enum { SLICE_CPU = 8 };
 /* Long batches reach the device while they are still being enqueued. */
 enum { LAUNCHES_BETWEEN_FLUSHES = 64 };
 /* Buffers are rounded up to this, so that clearing may write whole patterns. */
@@ -66,14 +69,15 @@ static brc_status choose_layout(brc_device *device, int lanes, size_t *group)
     if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
         return BRC_FAIL(device->context, BRC_BAD_INPUT, "%d elements a work-item: expected 1, 4, 8 or 16", lanes);
     device->lanes = lanes;
-    device->slice = gpu ? SLICE_GPU : lanes > SLICE_CPU ? lanes : SLICE_CPU;
-    *group = gpu ? GROUP_GPU : GROUP_CPU;
+    device->slice = gpu ? BRC_GPU_SLICE : lanes > SLICE_CPU ? lanes : SLICE_CPU;
+    *group = gpu ? BRC_GPU_GROUP : GROUP_CPU;
     if (!asked || !asked[0]) return BRC_OK;
     char *end;
     const long number = strtol(asked, &end, 10);
-    if (*end || number < 1 || number > 1024)
-        return BRC_FAIL(device->context, BRC_BAD_INPUT,
-                        "BRECCIA_OPENCL_GROUP is '%.32s': expected 1 to 1024 work-items", asked);
+    const int most = lanes == 1 ? MOST_WITH_ASIDE : 1024;
+    if (*end || number < 1 || number > most)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT, "BRECCIA_OPENCL_GROUP is '%.32s': expected 1 to %d work-items",
+                        asked, most);
     *group = (size_t)number;
     return BRC_OK;
 }
@@ -97,8 +101,8 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
     inside->queue =
         clCreateCommandQueue(inside->context, inside->id, inside->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
-    BRC_TRY_OR(cleanup, brc_opencl_build(device, inside->context, inside->id, request->kernel_folder, request->exact,
-                                         &inside->program));
+    BRC_TRY_OR(cleanup, brc_opencl_build(device, inside->context, inside->id, inside->group, request->kernel_folder,
+                                         request->exact, &inside->program));
     device->inside = inside;
     inside = NULL;
 cleanup:
@@ -211,6 +215,14 @@ static void opencl_forget(brc_kernel *kernel)
     brc_memory_free(own);
 }
 
+/* Small bodies: groups of as few as FEWEST_OF_GROUP, so that no part of the device is idle. */
+static size_t group_for(size_t group, size_t items, int units)
+{
+    while (group / 2 >= FEWEST_OF_GROUP && items < group * (size_t)units)
+        group /= 2;
+    return group;
+}
+
 static brc_status opencl_launch(brc_kernel *kernel, int64_t first, int64_t n_items, int n_args, const brc_arg *args)
 {
     brc_device *const device = kernel->device;
@@ -232,9 +244,10 @@ static brc_status opencl_launch(brc_kernel *kernel, int64_t first, int64_t n_ite
         own->last[a] = packed;
         own->set[a] = true;
     }
-    const size_t offset = (size_t)first,
-                 global = ((size_t)(n_items - first) + own->group - 1) / own->group * own->group;
-    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, &offset, &global, &own->group, 0, NULL,
+    const size_t items = (size_t)(n_items - first), offset = (size_t)first,
+                 group = group_for(own->group, items, device->info.compute_units),
+                 global = (items + group - 1) / group * group;
+    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, &offset, &global, &group, 0, NULL,
                                                brc_opencl_profile_event(inside->profile));
     BRC_TRY(brc_opencl_check(device, code, kernel->name));
     brc_opencl_profile_add(inside->profile, kernel->name, n_items);

@@ -131,16 +131,16 @@ static brc_status compile(brc_device *device, cl_context context, cl_device_id i
     return status;
 }
 
-brc_status brc_opencl_build(brc_device *device, cl_context context, cl_device_id id, const char *folder, bool exact,
-                            cl_program *out)
+brc_status brc_opencl_build(brc_device *device, cl_context context, cl_device_id id, size_t group, const char *folder,
+                            bool exact, cl_program *out)
 {
     brc_status status = BRC_OK;
     char *source = NULL, *key = NULL, options[256];
     *out = NULL;
     snprintf(options, sizeof options,
              "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D "
-             "BRC_MANY_MATERIALS=%d%s",
-             (int)device->precision, device->lanes, device->slice, (int)device->many_materials,
+             "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s",
+             (int)device->precision, device->lanes, device->slice, (int)group, (int)device->many_materials,
              exact ? exact_options(device, id) : "");
     BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
     BRC_TRY_OR(cleanup, make_key(device, id, options, source, &key));

@@ -231,11 +231,29 @@ LAW int brc_lane_any_short(lane a, lane b)
 #define PREFETCH(p, at) ((void)0)
 #endif
 
-/* Registers bound a GPU: loops over bonds that hold much are taken apart there. On a CPU rows are read once. */
+/* Registers bound a GPU: loops over bonds that hold much are taken apart there, and what a loop only reads or only what
+ * follows it needs is put aside, in the local memory of the group (ASIDE(name, n): room for n numbers of each
+ * work-item, in front of the items of a kernel). `volatile`, since a compiler would keep it in registers all the same.
+ * On a CPU rows are read once and nothing is put aside. BRC_GROUP: work-items a group at most (OpenCL). */
 #if defined(__OPENCL_VERSION__) && W == 1
 #define SPLIT_LOOPS 1
+typedef volatile __local coeff *aside;
+#define ASIDE(name, n)                                                                                                 \
+    __local coeff name##_of_group[(n)*BRC_GROUP];                                                                      \
+    const aside name = name##_of_group + get_local_id(0)
 #else
 #define SPLIT_LOOPS 0
+typedef int aside;
+#define ASIDE(name, n) const aside name = 0
+#endif
+
+/* In front of a loop of many turns whose loads do not depend on each other: one work-item of a GPU asks for those of n
+ * turns before it waits for the first. Sums are taken in the order written. */
+#if defined(__OPENCL_VERSION__) && W == 1
+#define BRC_TEXT(x) #x
+#define LOADS_TOGETHER(n) _Pragma(BRC_TEXT(unroll n))
+#else
+#define LOADS_TOGETHER(n)
 #endif
 
 /* LANE_MAKE(type, F) = (F(0), F(1), ... F(W-1)); LANE_ITEM(x, l) = component l, l a hex digit written out. */

@@ -196,6 +196,39 @@ LAW lane_sym3 lane_gather6_again(GLOBAL const coeff *restrict p, lane_int row)
 #define lane_gather9_again(p, row) lane_gather9(p, row)
 #endif
 
+/* A matrix put aside (portable.h) as the numbers `at` and following, and taken back; where nothing is put aside the one
+ * that was kept. */
+LAW void aside_put9(aside room, int at, lane_mat3 a)
+{
+#if SPLIT_LOOPS
+    const aside r = room + at * BRC_GROUP;
+    r[0] = a.xx, r[BRC_GROUP] = a.xy, r[2 * BRC_GROUP] = a.xz;
+    r[3 * BRC_GROUP] = a.yx, r[4 * BRC_GROUP] = a.yy, r[5 * BRC_GROUP] = a.yz;
+    r[6 * BRC_GROUP] = a.zx, r[7 * BRC_GROUP] = a.zy, r[8 * BRC_GROUP] = a.zz;
+#else
+    (void)room, (void)at, (void)a;
+#endif
+}
+LAW lane_mat3 aside_get9(aside room, int at, lane_mat3 kept)
+{
+#if SPLIT_LOOPS
+    const aside r = room + at * BRC_GROUP;
+    (void)kept;
+    return (lane_mat3){r[0],
+                       r[BRC_GROUP],
+                       r[2 * BRC_GROUP],
+                       r[3 * BRC_GROUP],
+                       r[4 * BRC_GROUP],
+                       r[5 * BRC_GROUP],
+                       r[6 * BRC_GROUP],
+                       r[7 * BRC_GROUP],
+                       r[8 * BRC_GROUP]};
+#else
+    (void)room, (void)at;
+    return kept;
+#endif
+}
+
 /* Stores of the W own elements from first. */
 LAW void lane_store9(GLOBAL coeff *restrict p, int first, lane_mat3 a)
 {

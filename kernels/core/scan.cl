@@ -10,6 +10,7 @@ KERNEL void scan_sums(int n_blocks, int n, OWN(int) x, PUT(int) sum)
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         int total = 0;
+        LOADS_TOGETHER(16)
         for (int i = begin; i < end; ++i) total += x[i];
         sum[b] = total;
     }
@@ -20,6 +21,7 @@ KERNEL void scan_tops(int n_items, int n_blocks, SCATTER(int) sum)
 {
     FOR_EACH_ITEM(k, n_items) {
         int before = k;
+        LOADS_TOGETHER(16)
         for (int b = 0; b < n_blocks; ++b) {
             const int own = sum[b];
             sum[b] = before;
@@ -35,6 +37,7 @@ KERNEL void scan_fill(int n_blocks, int n, OWN(int) x, OWN(int) sum, SCATTER(int
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         int before = sum[b];
+        LOADS_TOGETHER(16)
         for (int i = begin; i < end; ++i) {
             start[i] = before;
             before += x[i];

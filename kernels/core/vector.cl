@@ -30,6 +30,7 @@ KERNEL void vector_dot(int n_blocks, int n, OWN(state) x, OWN(state) y, PUT(stat
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
         state sum = 0;
+        LOADS_TOGETHER(16)
         for (int i = begin; i < end; ++i) sum += x[i] * y[i];
         partial[b] = sum;
     }
@@ -41,6 +42,7 @@ KERNEL void vector_sum(int n_blocks, int n, OWN(state) x, PUT(state) partial)
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
         state sum = 0;
+        LOADS_TOGETHER(16)
         for (int i = begin; i < end; ++i) sum += x[i];
         partial[b] = sum;
     }

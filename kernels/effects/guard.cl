@@ -1,6 +1,7 @@
-/* The guard of a run: which element is the first to leave what physics allows. One work-item does one block of 1024
- * rows, in order, and stops at its first find; nothing is reduced over blocks, so that a number that is not finite
- * cannot be lost in a maximum. */
+/* The guard of a run: which element is the first to leave what physics allows. One work-item does one block of rows;
+ * nothing is reduced over blocks, so that a number that is not finite cannot be lost in a maximum. */
+
+#define GUARD_BLOCK 128
 
 /* x is within (-most, most); false for what is not a number. */
 LAW int guard_within(state x, state most) { return x < most && x > -most; }
@@ -12,17 +13,18 @@ KERNEL void guard_probe(int n_blocks, int n, int probe, state most_u, state most
                         OWN(state) velocity, OWN(state) spin, UPDATE(int) first, PUT(int) when)
 {
     FOR_EACH_ITEM(b, n_blocks) {
-        const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
+        const int begin = b * GUARD_BLOCK, end = begin + GUARD_BLOCK < n ? begin + GUARD_BLOCK : n;
         if (first[b] < 0) {
             int found = -1;
-            for (int e = begin; e < end && found < 0; ++e) {
+            LOADS_TOGETHER(4)
+            for (int e = end - 1; e >= begin; --e) {
                 int within = 1;
                 for (int c = 0; c < 3; ++c) {
                     const brc_size at = (brc_size)e * 3 + c;
                     within &= guard_within(velocity[at], most_v) & guard_within(displacement[at], most_u);
                     if (turns) within &= guard_within(spin[at], most_u);
                 }
-                if (!within) found = e;
+                found = within ? found : e;
             }
             if (found >= 0) {
                 first[b] = found;

@@ -116,6 +116,33 @@ bool brc_effects_follow_surfaces(const brc_simulation *s)
     return false;
 }
 
+int64_t brc_effects_next_look(const brc_simulation *s)
+{
+    int64_t next = INT64_MAX;
+    for (int k = 0; k < s->n_effects; ++k) {
+        const int64_t n = s->effect[k]->looks ? s->effect[k]->looks->next(s) : INT64_MAX;
+        if (n < next) next = n;
+    }
+    return next;
+}
+
+void brc_effects_begin_looks(brc_simulation *s)
+{
+    for (int k = 0; k < s->n_effects; ++k)
+        if (s->effect[k]->looks) s->effect[k]->looks->begin(s);
+}
+
+brc_status brc_effects_end_looks(brc_simulation *s, bool *stands)
+{
+    *stands = true;
+    for (int k = 0; k < s->n_effects; ++k) {
+        bool found_nothing = true;
+        if (s->effect[k]->looks) BRC_TRY(s->effect[k]->looks->end(s, &found_nothing));
+        *stands = *stands && found_nothing;
+    }
+    return BRC_OK;
+}
+
 const brc_effect_ahead *brc_effects_ahead(const brc_simulation *s)
 {
     for (int k = 0; k < s->n_effects; ++k)

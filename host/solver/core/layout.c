@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WINDOW_SLICES = 32 };
+/* Elements are sorted by degree within windows: the smaller, the more padding, and the more of a group's neighbours are
+ * its own elements. On a GPU a window is a group (host/device/gpu_layout.h). */
+enum { WINDOW_SLICES = 32, WINDOW_OF_GPU = 256 };
 /* Kernels index rows of three components with an int (members.cl). */
 enum { MOST_ENTRIES = INT32_MAX / 3 };
 
@@ -40,7 +42,7 @@ static brc_status order_elements(brc_context *context, const brc_domain *domain,
     BRC_TRY_OR(cleanup, brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds,
                                           omp_get_max_threads(), order));
     /* inside a window: elements with free faces first, then by falling degree, then along the curve */
-    const int64_t window = (int64_t)WINDOW_SLICES * slice;
+    const int64_t window = WINDOW_SLICES * slice < WINDOW_OF_GPU ? WINDOW_SLICES * slice : WINDOW_OF_GPU;
     for (int64_t begin = 0; begin < domain->n_elements; begin += window) {
         const int64_t end = begin + window < domain->n_elements ? begin + window : domain->n_elements;
         for (int64_t i = begin; i < end; ++i) {

@@ -181,6 +181,7 @@ struct brc_simulation {
     brc_breaking *fracture;            /* only in scenes with fracture */
     brc_strikers *strikers;            /* only in scenes with strikers */
     struct brc_contact_state *contact; /* only in scenes with contact */
+    struct brc_ahead *ahead;           /* from the first step that asks on (ahead.c) */
     struct brc_noise *noise;           /* only where a stage has noise_damping (noise_damping.c) */
     struct brc_look *look;             /* from the first look between two batches on (look.c) */
     struct brc_guard_state *guard;     /* from the first dynamic stage that is run (not stepped by hand) on */

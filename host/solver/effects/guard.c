@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BLOCK = 1024 }; /* rows of a work-item of guard_probe */
+enum { BLOCK = 128 }; /* rows of a work-item of guard_probe (GUARD_BLOCK, kernels/effects/guard.cl) */
 /* A look reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the
  * device and reading a number a block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps
  * both stay below a hundredth (docs/notebook/stability.md). */

@@ -149,6 +149,12 @@ KERNEL void contact_moved(int n_blocks, int n, int pose, OWN(int) exposed, OWN(i
     }
 }
 
+/* The larger of each number, of this look and of those before it. */
+KERNEL void contact_most(int n, OWN(state) moved, UPDATE(state) most)
+{
+    FOR_EACH_ITEM(i, n) { most[i] = moved[i] > most[i] ? moved[i] : most[i]; }
+}
+
 /* Of each block the largest radius of an exposed element, in the first of CONTACT_MOVED columns. */
 KERNEL void contact_largest(int n_blocks, int n, OWN(int) exposed, OWN(state) built, PUT(state) moved)
 {

@@ -28,8 +28,11 @@ LAW lane_mat3 dlsm_first_piola(lane_mat3 g, lane lambda, lane mu, int finite)
     return push_forward(g, svk_stress(green_strain(g, finite), lambda, mu), finite);
 }
 
+/* What pass 3 puts aside (portable.h): M of the element, and V P - q. */
+enum { ASIDE_M = 0, ASIDE_OWN = 9, ASIDE_FLUX = 18 };
+
 /* What the bond in one slot adds in pass 3: to the sums of gradients ... */
-LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums sums, OWN(int) neighbour,
+LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, aside room, int slot, dlsm_flux_sums sums, OWN(int) neighbour,
                                           OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
                                           GATHER(coeff) gradient, GATHER(coeff) modulus, GATHER(coeff) ell_of,
                                           state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite,
@@ -43,7 +46,8 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, int slot, dlsm_flux_sums 
     const lane q = members_row1(who, ratio, slot);
     const lane_mat3 h_j = lane_gather9(gradient, j);
     const lane_vec3 x = lane_vec3_scale(REAL(0.5) * q, s); /* R / 2 [m] */
-    const lane_vec3 h_x = lane_mat3_mul_vec(h, x), h_j_x = lane_mat3_mul_vec(h_j, x), m_x = lane_mat3_mul_vec(m, x);
+    const lane_vec3 h_x = lane_mat3_mul_vec(h, x), h_j_x = lane_mat3_mul_vec(h_j, x),
+                    m_x = lane_mat3_mul_vec(aside_get9(room, ASIDE_M, m), x);
 #if BRC_MANY_MATERIALS
     const lane weight = lane_min(gather_component(modulus, j), k) / k;
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
@@ -71,7 +75,7 @@ LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sum
 
 /* Bonds of pass 3: those of gradients, and those of stresses in the same loop where rows are read once (SPLIT_LOOPS).
  * Each sum is its own, so that it has the same bits either way. */
-LAW dlsm_flux_sums dlsm_flux_sums_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+LAW dlsm_flux_sums dlsm_flux_sums_of(members who, aside room, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
                                      OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
                                      GATHER(coeff) stress, GATHER(coeff) modulus, GATHER(coeff) ell_of, lane_mat3 h,
                                      lane_mat3 p, lane_mat3 m, lane k, coeff ell_one, int finite, int plain)
@@ -79,32 +83,46 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, OWN(int) neighbour, OWN(coeff)
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
     for (int slot = who.begin; slot < who.end; ++slot) {
-        sums = dlsm_flux_gradients_at(who, slot, sums, neighbour, area, ratio, displacement, gradient, modulus, ell_of,
-                                      u, h, m, k, ell_one, finite, plain);
+        sums = dlsm_flux_gradients_at(who, room, slot, sums, neighbour, area, ratio, displacement, gradient, modulus,
+                                      ell_of, u, h, m, k, ell_one, finite, plain);
         if (!SPLIT_LOOPS) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
     }
     return sums;
 }
 
+/* V P - q [N m] in a loop of its own. */
+LAW lane_mat3 dlsm_flux_own_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                               GATHER(coeff) stress, OWN(coeff) inv_volume)
+{
+    dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
+    const lane_mat3 p = lane_gather9(stress, who.own);
+    for (int slot = who.begin; slot < who.end; ++slot)
+        sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
+    return dlsm_flux_own(p, REAL(1) / members_number(who, inv_volume), sums.q);
+}
+
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
  * held_moment [block][9][C]: what held faces and tractions add to Q. One loop leaves out the terms of ell, 0 for nu >=
- * 0 (one material). Where loops are split, the second holds nothing of the first but what its sums have become. */
-LAW lane_mat3 dlsm_flux_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset, OWN(coeff) ratio,
-                           GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
+ * 0 (one material). Where loops are split, that of gradients holds H and its two sums alone: M and V P - q are aside,
+ * and what the strain of H is made of is not kept for what follows it. */
+LAW lane_mat3 dlsm_flux_of(members who, aside room, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
+                           OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
                            OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment,
                            int face_loads, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
                            OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite,
                            PUT(coeff) bond_part)
 {
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
-    lane_mat3 h = lane_gather9(gradient, who.own), p = SPLIT_LOOPS ? lane_mat3_zero() : lane_gather9(stress, who.own),
-              m;
+    if (SPLIT_LOOPS) aside_put9(room, ASIDE_OWN, dlsm_flux_own_of(who, neighbour, area, offset, stress, inv_volume));
+    lane_mat3 h = lane_gather9(gradient, who.own), m;
+    const lane_mat3 p = SPLIT_LOOPS ? lane_mat3_zero() : lane_gather9(stress, who.own);
     dlsm_flux_sums sums;
     dlsm_flux_couples couples;
 #define SUMS(finite, plain)                                                                                            \
-    m = dlsm_compaction(h, ell, finite),                                                                               \
-    sums = dlsm_flux_sums_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, modulus, ell_of, h,  \
-                             p, m, k, ell_one, finite, plain),                                                         \
+    m = dlsm_compaction(h, ell, finite), aside_put9(room, ASIDE_M, m),                                                 \
+    sums = dlsm_flux_sums_of(who, room, neighbour, area, offset, ratio, displacement, gradient, stress, modulus,       \
+                             ell_of, h, p, m, k, ell_one, finite, plain),                                              \
+    h = SPLIT_LOOPS ? lane_gather9_again(gradient, who.own) : h,                                                       \
     couples = dlsm_flux_couple(h, sums, k, beta, one_plus_tau, ell, finite)
     if (!finite)
         SUMS(0, 0);
@@ -113,19 +131,13 @@ LAW lane_mat3 dlsm_flux_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN
     else
         SUMS(1, 0);
 #undef SUMS
-    if (SPLIT_LOOPS) {
-        p = lane_gather9(stress, who.own);
-        for (int slot = who.begin; slot < who.end; ++slot)
-            sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
-    }
-    lane_mat3 moment = dlsm_flux_moment(p, REAL(1) / members_number(who, inv_volume), sums.q, couples);
+    lane_mat3 own = lane_mat3_zero();
+    if (!SPLIT_LOOPS) own = dlsm_flux_own(p, REAL(1) / members_number(who, inv_volume), sums.q);
+    lane_mat3 moment = dlsm_flux_moment(aside_get9(room, ASIDE_OWN, own), couples);
     if (face_loads) moment = members_add_boundary(who, moment, LANE_ZERO + REAL(1), boundary, held_moment);
     const lane_mat3 b = lane_mat3_mul_sym(moment, members_block6(who, inv_shape));
-    if (SPLIT_LOOPS) {
-        h = lane_gather9_again(gradient, who.own);
-        m = finite ? dlsm_compaction(h, ell, 1) : dlsm_compaction(h, ell, 0);
-    }
-    const lane_mat3 part = dlsm_flux_bond_part(h, m, beta, one_plus_tau);
+    if (SPLIT_LOOPS) h = lane_gather9_again(gradient, who.own);
+    const lane_mat3 part = dlsm_flux_bond_part(h, aside_get9(room, ASIDE_M, m), beta, one_plus_tau);
 #if BRC_MANY_MATERIALS
     members_store9(who, bond_part, part);
     return b;
@@ -144,12 +156,13 @@ KERNEL void dlsm_flux_linear(int n_groups, OWN(int) row_start, OWN(int) neighbou
                              OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, PUT(coeff) flux,
                              PUT(coeff) bond_part)
 {
+    ASIDE(room, ASIDE_FLUX);
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
         members_store9(who, flux,
-                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
-                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
-                                    material, modulus, ell_of, 0, bond_part));
+                       dlsm_flux_of(who, room, neighbour, area, offset, ratio, displacement, gradient, stress,
+                                    inv_shape, inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta,
+                                    one_plus_tau, material, modulus, ell_of, 0, bond_part));
     }
 }
 

@@ -47,9 +47,12 @@ LAW dlsm_flux_couples dlsm_flux_couple(lane_mat3 gradient, dlsm_flux_sums sums, 
         lane_mat3_add(lane_mat3_scale(half_k * one_plus_tau, sums.rs), lane_mat3_scale(half_k * beta, sums.ms));
     return (dlsm_flux_couples){direct, dlsm_compaction_adjoint(gradient, t, ell, finite)};
 }
-LAW lane_mat3 dlsm_flux_moment(lane_mat3 stress, lane volume, lane_mat3 q, dlsm_flux_couples couples)
+LAW lane_mat3 dlsm_flux_own(lane_mat3 stress, lane volume, lane_mat3 q) /* V P - q */
 {
-    const lane_mat3 own = lane_mat3_sub(lane_mat3_scale(volume, stress), q);
+    return lane_mat3_sub(lane_mat3_scale(volume, stress), q);
+}
+LAW lane_mat3 dlsm_flux_moment(lane_mat3 own, dlsm_flux_couples couples)
+{
     return lane_mat3_add(lane_mat3_sub(own, couples.direct), couples.adjoint);
 }
 

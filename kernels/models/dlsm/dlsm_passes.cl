@@ -41,12 +41,13 @@ KERNEL void PASS(dlsm_flux_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighb
                                  coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
                                  int finite, PUT(coeff) flux, PUT(coeff) bond_part)
 {
+    ASIDE(room, ASIDE_FLUX);
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
         members_store9(who, flux,
-                       dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
-                                    inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta, one_plus_tau,
-                                    material, modulus, ell_of, finite, bond_part));
+                       dlsm_flux_of(who, room, neighbour, area, offset, ratio, displacement, gradient, stress,
+                                    inv_shape, inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta,
+                                    one_plus_tau, material, modulus, ell_of, finite, bond_part));
     }
 }
 

@@ -47,10 +47,11 @@ KERNEL void rim_inner_flux(int n_items, int n, OWN(int) list, OWN(int) row_start
                            int finite, UPDATE(coeff) flux, PUT(coeff) bond_part, int fluxes, GATHER(int) level,
                            SCATTER(coeff) delta)
 {
+    ASIDE(room, ASIDE_FLUX);
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_list(item, n, list, row_start);
-        const lane_mat3 b = dlsm_flux_of(who, neighbour, area, offset, ratio, displacement, gradient, stress, inv_shape,
-                                         inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta,
+        const lane_mat3 b = dlsm_flux_of(who, room, neighbour, area, offset, ratio, displacement, gradient, stress,
+                                         inv_shape, inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta,
                                          one_plus_tau, material, modulus, ell_of, finite, bond_part);
         rim_changed(who, item, fluxes, level, lane_mat3_sub(b, lane_gather9(flux, who.own)), delta);
         members_store9(who, flux, b);

@@ -72,6 +72,7 @@ void brc_contact_free(brc_simulation *s)
     brc_contact_state *c = s->contact;
     if (!c) return;
     brc_contact_fields_free(c);
+    brc_buffer_free(&c->most_moved);
     if (c->bonded) brc_fields_free(&brc_bonded_list_fields, c->bonded);
     brc_memory_free(c->bonded);
     brc_memory_free(c->law_of);
@@ -149,9 +150,8 @@ brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger)
                     brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
 }
 
-int64_t brc_contact_quiet_steps(const brc_simulation *s)
+int64_t brc_contact_next_look(const brc_simulation *s)
 {
-    if (!s->contact) return INT64_MAX;
     return s->contact->due ? 0 : s->contact->quiet;
 }
 
@@ -164,6 +164,7 @@ brc_status brc_contact_follow(brc_simulation *s)
         c->quiet -= 1;
         return BRC_OK;
     }
+    if (brc_ahead_is_on(s)) return brc_contact_put_off_look(s);
     BRC_TRY(brc_contact_look(s, &due, &past));
     return due ? search_soon(s) : BRC_OK;
 }

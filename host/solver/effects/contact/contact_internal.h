@@ -28,7 +28,7 @@ typedef struct brc_contact_list {
 struct brc_contact_state {
     struct {
         brc_pass *extent, *largest, *drift, *drift_mean, *moved, *expose, *list, *keys, *buckets, *again, *kept, *keep,
-            *changed, *spread, *count, *fill, *with_pairs, *own_pairs, *other_pairs, *pack, *carry;
+            *changed, *most, *spread, *count, *fill, *with_pairs, *own_pairs, *other_pairs, *pack, *carry;
         brc_pass *spheres, *gather_turning, *marked;
         brc_pass *cells, *gather_moments, *gather_forces, *striker_parts, *striker_load, *pieces, *pieces_moved;
         brc_pass *detach, *pose, *turn, *spin_energy;
@@ -70,6 +70,9 @@ struct brc_contact_state {
     brc_buffer *again, *redo; /* of listed elements */
     brc_contact_list now, before;
     int64_t quiet;           /* steps for which nothing can have moved far enough */
+    brc_buffer *most_moved;  /* the largest that the looks of a stretch found (../fracture/ahead.h) */
+    int n_looks, n_trusted;  /* looks of the stretch; how many may be put off */
+    double most_pushed;      /* by these strikers [m/s^2] */
     int64_t searches, lists; /* searches of all; lists that were made, those of breaks too */
     bool due;                /* dlsm: look for pairs as soon as the gradients of this evaluation are there */
     /* pairs */
@@ -140,6 +143,8 @@ brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched);
 /* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old,
  * or soon; *past: it no longer holds. */
 brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past);
+/* The same within a stretch, which asks at its end. */
+brc_status brc_contact_put_off_look(brc_simulation *s);
 /* Evaluate pairs into c->result, all or those of c->todo; dt: of the step that ended, 0: again. broke: for the breaks
  * of this step. */
 brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool broke);

@@ -4,7 +4,7 @@
 #include "../strikers/strikers_internal.h"
 #include <math.h>
 
-enum { MOST_QUIET = 64, FEWEST_QUIET = 8 };
+enum { MOST_QUIET = 64, FEWEST_QUIET = 8, MOST_TRUSTED = 8 };
 
 /* A table of lists anew, for n things. */
 static brc_status renew(brc_simulation *s, const brc_field_table *table, int64_t n, void *owner)
@@ -28,6 +28,9 @@ static brc_status make_passes(brc_simulation *s)
     const brc_scope survey = {.owner = "moves since the last search", .base = c, BRC_VALUES(moves), .outer = &in.state};
     BRC_TRY(BRC_PASSES(s, &survey, BRC_PASS(&c->pass.drift, "contact_drift", "n"),
                        BRC_PASS(&c->pass.moved, "contact_moved", "n")));
+    static const brc_value_row most[] = {{"most", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_contact_state, most_moved)}};
+    const brc_scope fold = {.owner = "moves of the looks so far", .base = c, BRC_VALUES(most), .outer = &survey};
+    BRC_TRY(BRC_PASSES(s, &fold, BRC_PASS(&c->pass.most, "contact_most", NULL)));
     const brc_pass_wanted of_lists[] = {BRC_PASS(&c->pass.extent, "contact_extent", NULL),
                                         BRC_PASS(&c->pass.largest, "contact_largest", "n"),
                                         BRC_PASS(&c->pass.drift_mean, "contact_drift_mean", "n_blocks"),
@@ -61,20 +64,12 @@ brc_status brc_contact_search_create(brc_simulation *s)
     return brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->before);
 }
 
-/* Largest of each column of n rows of c->moved from the first on; as they are where there are none. */
-static brc_status largest_of(brc_simulation *s, int32_t first, int32_t n, double out[BRC_CONTACT_MOVED])
+/* Largest of each column of rows [from, to). */
+static void largest_of(const double *value, int64_t from, int64_t to, double out[BRC_CONTACT_MOVED])
 {
-    const int64_t rows = first + n;
-    double *value = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &value, BRC_CONTACT_MOVED * rows, "moves since the last search"));
-    const brc_status status =
-        brc_download(s, s->contact->moved, brc_precision_state_bytes(brc_device_get_precision(s->device)), value,
-                     BRC_CONTACT_MOVED * rows);
-    for (int64_t b = first; b < rows; ++b)
+    for (int64_t b = from; b < to; ++b)
         for (int k = 0; k < BRC_CONTACT_MOVED; ++k)
-            out[k] = b == first ? value[BRC_CONTACT_MOVED * b + k] : fmax(out[k], value[BRC_CONTACT_MOVED * b + k]);
-    brc_memory_free(value);
-    return status;
+            out[k] = b == from ? value[BRC_CONTACT_MOVED * b + k] : fmax(out[k], value[BRC_CONTACT_MOVED * b + k]);
 }
 
 /* How far and how fast elements and pieces of strikers moved since the list was made: columns of contact_moved and
@@ -83,31 +78,48 @@ typedef struct survey {
     double element[BRC_CONTACT_MOVED], piece[BRC_CONTACT_MOVED];
 } survey;
 
-static brc_status take_survey(brc_simulation *s, survey *out)
+static brc_status enqueue_survey(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows, n_blocks = brc_blocks(n, BRC_CONTACT_BLOCK);
-    *out = (survey){.element = {0}};
     BRC_TRY(BRC_RUN(c->pass.drift, n_blocks, {"n", BRC_INT(n)}));
     BRC_TRY(BRC_RUN(c->pass.drift_mean, 1, {"n_blocks", BRC_INT(n_blocks)}));
     BRC_TRY(BRC_RUN(c->pass.moved, n_blocks, {"n", BRC_INT(n)}));
-    if (c->n_pieces) BRC_TRY(BRC_RUN(c->pass.pieces_moved, c->n_pieces, {"first", BRC_INT(n_blocks)}));
-    BRC_TRY(largest_of(s, 0, n_blocks, out->element));
-    return c->n_pieces ? largest_of(s, n_blocks, c->n_pieces, out->piece) : BRC_OK;
+    return c->n_pieces ? BRC_RUN(c->pass.pieces_moved, c->n_pieces, {"first", BRC_INT(n_blocks)}) : BRC_OK;
 }
 
-brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
+/* Largest of the columns that a survey left in `moved`, of n_pieces pieces too. */
+static brc_status read_survey(brc_simulation *s, brc_buffer *moved, int32_t n_pieces, survey *out)
 {
-    brc_contact_state *c = s->contact;
+    const int64_t n_blocks = brc_blocks(s->layout->n_rows, BRC_CONTACT_BLOCK), rows = n_blocks + n_pieces;
+    double *value = NULL;
+    *out = (survey){.element = {0}};
+    BRC_TRY(BRC_ALLOCATE(s->context, &value, BRC_CONTACT_MOVED * rows, "moves since the last search"));
+    const brc_status status = brc_download(s, moved, brc_precision_state_bytes(brc_device_get_precision(s->device)),
+                                           value, BRC_CONTACT_MOVED * rows);
+    largest_of(value, 0, n_blocks, out->element);
+    largest_of(value, n_blocks, rows, out->piece);
+    brc_memory_free(value);
+    return status;
+}
+
+static brc_status take_survey(brc_simulation *s, survey *out)
+{
+    BRC_TRY(enqueue_survey(s));
+    return read_survey(s, s->contact->moved, s->contact->n_pieces, out);
+}
+
+/* What a survey says: steps until the next look; due, past as brc_contact_look. pushed: acceleration of strikers. */
+static int64_t judge(const brc_simulation *s, const survey *now, double pushed, bool *due, bool *past)
+{
+    const brc_contact_state *c = s->contact;
     const double dt = s->time_step.value;
-    survey now;
-    BRC_TRY(take_survey(s, &now));
     /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and
      * of the way to the next piece of a striker. */
-    const double left = 0.5 * c->skin - now.element[0], v = 2 * now.element[1] * dt,
-                 a = 2 * sqrt(now.element[2]) * dt * dt;
-    const double clear = -now.element[3] - now.piece[0], v_piece = 2 * (now.element[4] + sqrt(now.piece[1])) * dt,
-                 a_piece = 2 * (sqrt(now.element[5]) + (c->n_pieces ? brc_strikers_pushed(s) : 0)) * dt * dt;
+    const double left = 0.5 * c->skin - now->element[0], v = 2 * now->element[1] * dt,
+                 a = 2 * sqrt(now->element[2]) * dt * dt;
+    const double clear = -now->element[3] - now->piece[0], v_piece = 2 * (now->element[4] + sqrt(now->piece[1])) * dt,
+                 a_piece = 2 * (sqrt(now->element[5]) + pushed) * dt * dt;
     int64_t steps = 0;
     while (steps < MOST_QUIET) {
         const double t = (double)(steps + 1);
@@ -116,7 +128,72 @@ brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
     }
     *past = !(left > 0) || !(clear > 0);
     *due = *past || (steps < FEWEST_QUIET && (left < 0.25 * c->skin || clear < 0.5 * c->skin));
-    c->quiet = steps;
+    return steps;
+}
+
+static double pushed_now(const brc_simulation *s)
+{
+    return s->contact->n_pieces ? brc_strikers_pushed(s) : 0;
+}
+
+/* Looks that are put off from now on: one more each time that nothing was found, none where something was. */
+static void trust(brc_contact_state *c, bool calm)
+{
+    const int more = c->n_trusted > 0 ? 2 * c->n_trusted : 1;
+    c->n_trusted = !calm ? 0 : more < MOST_TRUSTED ? more : MOST_TRUSTED;
+}
+
+brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
+{
+    brc_contact_state *c = s->contact;
+    survey now;
+    BRC_TRY(take_survey(s, &now));
+    c->quiet = judge(s, &now, pushed_now(s), due, past);
+    trust(c, c->quiet == MOST_QUIET && !*due);
+    return BRC_OK;
+}
+
+/* ---- looks that are put off (../fracture/ahead.h) ---- */
+
+int64_t brc_contact_quiet_steps(const brc_simulation *s)
+{
+    const brc_contact_state *c = s->contact;
+    if (!c) return INT64_MAX;
+    return c->due ? 0 : c->quiet + (int64_t)c->n_trusted * MOST_QUIET;
+}
+
+void brc_contact_begin_stretch(brc_simulation *s)
+{
+    s->contact->n_looks = 0;
+    s->contact->most_pushed = 0;
+}
+
+/* What would allow MOST_QUIET steps with the largest of every column allows as many with each. */
+brc_status brc_contact_put_off_look(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int64_t bytes = brc_buffer_bytes(c->moved);
+    BRC_TRY(enqueue_survey(s));
+    if (!c->most_moved) BRC_TRY(brc_buffer_create(s->device, &c->most_moved, bytes, "moves of the looks so far"));
+    if (c->n_looks++ == 0)
+        BRC_TRY(brc_buffer_copy(c->most_moved, c->moved, bytes));
+    else
+        BRC_TRY(brc_pass_run(c->pass.most, bytes / brc_precision_state_bytes(brc_device_get_precision(s->device))));
+    c->most_pushed = fmax(c->most_pushed, pushed_now(s));
+    c->quiet = MOST_QUIET;
+    return BRC_OK;
+}
+
+brc_status brc_contact_end_stretch(brc_simulation *s, bool *stands)
+{
+    brc_contact_state *c = s->contact;
+    survey most;
+    bool due, past;
+    *stands = true;
+    if (c->n_looks == 0) return BRC_OK;
+    BRC_TRY(read_survey(s, c->most_moved, c->n_pieces, &most));
+    *stands = judge(s, &most, c->most_pushed, &due, &past) == MOST_QUIET && !due;
+    trust(c, *stands);
     return BRC_OK;
 }
 
@@ -267,15 +344,15 @@ static brc_status find_entries(brc_simulation *s, bool whole)
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
     const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = brc_blocks(n, BRC_CONTACT_BLOCK);
-    double most[BRC_CONTACT_MOVED];
+    survey most;
     int64_t near, n_redo;
     int sorted, mask = BRC_SORT_BINS;
     while (mask < 2 * (int64_t)m)
         mask *= 2;
     mask -= 1;
     BRC_TRY(BRC_RUN(c->pass.largest, n_blocks, {"n", BRC_INT(n)}));
-    BRC_TRY(largest_of(s, 0, n_blocks, most));
-    const double per_edge = 1 / (1.000001 * (2 * most[0] + c->skin));
+    BRC_TRY(read_survey(s, c->moved, 0, &most));
+    const double per_edge = 1 / (1.000001 * (2 * most.element[0] + c->skin));
     BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
     BRC_TRY(find_redo(s, whole, per_edge, mask, sorted, &n_redo));
     if (n_redo > 0)

@@ -1,6 +1,7 @@
 /* Contact as an effect. */
 #include "../effect.h"
 #include "../../core/rings.h"
+#include "../fracture/ahead.h"
 #include "contact_internal.h"
 
 extern const brc_field_table brc_contact_old_slot_fields, brc_contact_old_listed_fields;
@@ -49,6 +50,13 @@ static bool exposes(const brc_scene *scene) /* any element may come to be pushed
 static const brc_effect_step_bound step_bound = {brc_contact_critical_step, brc_contact_check_step, "auto: contact",
                                                  "auto: power iteration and contact"};
 
+static const brc_effect_looks looks = {brc_contact_next_look, brc_contact_begin_stretch, brc_contact_end_stretch};
+static void release(brc_simulation *s)
+{
+    brc_ahead_free(s);
+    brc_contact_free(s);
+}
+
 static const brc_hooked hooked[] = {
     {.hook = BRC_HOOK_RESTART, .plain = brc_contact_restart},
     {.hook = BRC_HOOK_STARTED, .call = started},
@@ -81,8 +89,10 @@ const brc_effect brc_contact_effect = {.name = "contact",
                                        .exposes = exposes,
                                        .follows_surfaces = true,
                                        .step_bound = &step_bound,
+                                       .ahead = &brc_steps_ahead,
+                                       .looks = &looks,
                                        .quiet_steps = brc_contact_quiet_steps,
                                        .fields = fields,
                                        .create = brc_contact_create,
-                                       .free = brc_contact_free,
+                                       .free = release,
                                        BRC_HOOKED(hooked)};

@@ -14,14 +14,21 @@ struct brc_ahead {
     brc_buffer *copy[MOST_KEPT];
     char *numbers; /* of the host, one after another, each list behind its number of rows */
     int64_t used, at;
-    int64_t calm;  /* steps since the last break */
-    int64_t first; /* step before the stretch */
-    double broken; /* half-edges of beams that were broken as it began */
-    bool broke;    /* some beam is broken */
-    bool on, open; /* a stretch is being taken; the simulation's `open` at its start */
+    int64_t calm;       /* steps since the last break */
+    int64_t first;      /* step before the stretch */
+    double broken;      /* half-edges of beams that were broken as it began, counted ... */
+    int64_t counted_at; /* ... after these steps of the run */
+    int32_t counted_in; /* ... in this stage */
+    bool broke;         /* some beam is broken */
+    bool on, open;      /* a stretch is being taken; the simulation's `open` at its start */
 };
 
 /* ---- what is kept: the store of checkpoints (state_store.h), in memory ---- */
+
+static bool is_of_beams(const brc_simulation *s)
+{
+    return s->fracture && !s->fracture->cells;
+}
 
 static struct brc_ahead *ahead_of(brc_state_store *store)
 {
@@ -72,7 +79,7 @@ static brc_status keep_field(brc_state_store *store, brc_buffer *buffer)
 
 static brc_status walk(brc_simulation *s, bool loading)
 {
-    struct brc_ahead *a = s->fracture->ahead;
+    struct brc_ahead *a = s->ahead;
     a->store = (brc_state_store){
         .self = a, .loading = loading, .numbers = keep_numbers, .count = count_rows, .field = keep_field};
     if (!loading) a->used = 0;
@@ -89,11 +96,6 @@ static bool works_beside(const brc_simulation *s)
     return brc_device_get_info(s->device)->kind == BRC_DEVICE_OPENCL;
 }
 
-static bool is_of_beams(const brc_simulation *s)
-{
-    return !s->fracture->cells;
-}
-
 /* Where surfaces are followed, broken beams change what they meet. */
 static bool touches(const brc_simulation *s)
 {
@@ -104,54 +106,60 @@ static bool touches(const brc_simulation *s)
  * passes of their own, which a stretch before the first break leaves out. */
 static bool may(const brc_simulation *s)
 {
-    const struct brc_ahead *a = s->fracture->ahead;
-    const bool worth = !is_of_beams(s) || touches(s) || (brc_wants_lost_beams(&s->wants) && !(a && a->broke));
+    const bool lost = is_of_beams(s) && brc_wants_lost_beams(&s->wants) && !(s->ahead && s->ahead->broke);
+    const bool worth = touches(s) || (s->fracture && !is_of_beams(s)) || lost;
     return worth && !(s->model->cohesion && s->model->cohesion->is_on(s)) &&
            brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC && works_beside(s);
 }
 
-int64_t brc_ahead_steps(const brc_simulation *s, int64_t n)
+/* Steps, of at most n, that may now be taken ahead; 0: each is to be known. */
+static int64_t ahead_steps(const brc_simulation *s, int64_t n)
 {
-    const struct brc_ahead *a = s->fracture->ahead;
-    const bool asks = s->fracture->cells || touches(s);
+    const struct brc_ahead *a = s->ahead;
+    const bool asks = s->fracture && (s->fracture->cells || touches(s));
     const int64_t calm = !asks ? BRC_AHEAD_MOST : a ? a->calm : 0, quiet = brc_effects_quiet_steps(s);
     int64_t most = calm < BRC_AHEAD_MOST ? calm : BRC_AHEAD_MOST;
-    if (quiet < most) most = quiet; /* the host looks for pairs */
+    if (quiet < most) most = quiet;
     if (most < BRC_AHEAD_FEWEST || n < 2 || !may(s)) return 0;
-    return n < most ? n : most;
+    if (n < most) most = n;
+    return !s->fracture && brc_effects_next_look(s) >= most ? 0 : most; /* without a look nobody asks */
 }
 
 bool brc_ahead_is_on(const brc_simulation *s)
 {
-    return s->fracture && s->fracture->ahead && s->fracture->ahead->on;
+    return s->ahead && s->ahead->on;
 }
 bool brc_ahead_is_whole(const brc_simulation *s)
 {
-    return brc_ahead_is_on(s) && is_of_beams(s) && !s->fracture->ahead->broke;
+    return brc_ahead_is_on(s) && is_of_beams(s) && !s->ahead->broke;
 }
 
 static brc_status ahead_made(brc_simulation *s, struct brc_ahead **out)
 {
-    if (!s->fracture->ahead) {
-        BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->ahead, 1, "steps ahead"));
-        s->fracture->ahead->simulation = s;
+    if (!s->ahead) {
+        BRC_TRY(BRC_ALLOCATE(s->context, &s->ahead, 1, "steps ahead"));
+        s->ahead->simulation = s;
+        s->ahead->counted_at = -1;
     }
-    *out = s->fracture->ahead;
+    *out = s->ahead;
     return BRC_OK;
 }
 
-brc_status brc_ahead_begin(brc_simulation *s)
+/* A stretch begins: what its steps change is copied on the device. */
+static brc_status ahead_begin(brc_simulation *s)
 {
     struct brc_ahead *a;
     BRC_TRY(ahead_made(s, &a));
     if (is_of_beams(s)) {
-        BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, &a->broken));
+        if (a->counted_at != s->total_steps || a->counted_in != s->stage)
+            BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, &a->broken));
         a->broke = a->broken > 0;
-    } else {
+    } else if (s->fracture) {
         if (!a->found) BRC_TRY(brc_new_state(s, &a->found, s->layout->n_rows, "marks of steps ahead"));
         BRC_TRY(brc_buffer_fill_zero(a->found));
     }
     BRC_TRY(walk(s, false));
+    brc_effects_begin_looks(s);
     a->first = s->step;
     a->open = s->open;
     a->on = true;
@@ -161,34 +169,48 @@ brc_status brc_ahead_begin(brc_simulation *s)
 /* Bonds that broke, or were to break, in the stretch. */
 static brc_status count_stretch(brc_simulation *s, double *n)
 {
-    const struct brc_ahead *a = s->fracture->ahead;
+    const struct brc_ahead *a = s->ahead;
+    *n = 0;
+    if (!s->fracture) return BRC_OK;
     if (!is_of_beams(s)) return brc_vector_sum(s, a->found, s->layout->n_rows, n);
     BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, n));
     *n -= a->broken;
     return BRC_OK;
 }
 
-brc_status brc_ahead_end(brc_simulation *s, bool *stands)
+/* It has ended. *stands: nothing was to break; else the simulation is where it was at the beginning. */
+static brc_status ahead_end(brc_simulation *s, bool *stands)
 {
-    struct brc_ahead *a = s->fracture->ahead;
-    const brc_cell_breaks *c = s->fracture->cells;
+    struct brc_ahead *a = s->ahead;
+    const brc_cell_breaks *c = s->fracture ? s->fracture->cells : NULL;
     const int64_t last = s->step;
     double n;
+    bool seen = true;
     a->on = false;
     BRC_TRY(count_stretch(s, &n));
-    *stands = !(n > 0);
-    if (*stands && !c) a->calm += last - a->first;
-    if (*stands) return BRC_OK;
+    BRC_TRY(brc_effects_end_looks(s, &seen));
+    *stands = !(n > 0) && seen;
+    if (*stands) {
+        if (!c) a->calm += last - a->first;
+        a->counted_at = s->total_steps;
+        a->counted_in = s->stage;
+        return BRC_OK;
+    }
     BRC_TRY(walk(s, true));
     s->open = a->open;
-    a->calm = 0;
-    a->broke = true;
+    a->counted_at = -1;
+    if (n > 0) {
+        a->calm = 0;
+        a->broke = true;
+    }
     if (c) BRC_TRY(brc_buffer_fill_zero(c->mark));
     if (c) BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
-    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: bonds break in them",
-            (long long)s->step + 1, (long long)last);
+    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: %s in them", (long long)s->step + 1,
+            (long long)last, n > 0 ? "bonds break" : "surfaces come near");
     return BRC_OK;
 }
+
+const brc_effect_ahead brc_steps_ahead = {ahead_steps, ahead_begin, ahead_end};
 
 brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, double *n)
 {
@@ -204,12 +226,12 @@ brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, 
 
 void brc_ahead_free(brc_simulation *s)
 {
-    struct brc_ahead *a = s->fracture->ahead;
+    struct brc_ahead *a = s->ahead;
     if (!a) return;
     for (int k = 0; k < a->n_copies; ++k)
         brc_buffer_free(&a->copy[k]);
     brc_buffer_free(&a->found);
     brc_memory_free(a->numbers);
     brc_memory_free(a);
-    s->fracture->ahead = NULL;
+    s->ahead = NULL;
 }

@@ -4,20 +4,18 @@
  * to break after all, everything is put back to the start of the stretch and its steps are taken again with a question
  * each: the same bits in either case. A stretch is no longer than the steps before it in which nothing broke, so at
  * most half of all steps are taken in vain. Beams break on the device, and the host is to know where surfaces may
- * touch: there it is the count of broken ones that is asked for. */
+ * touch: there it is the count of broken ones that is asked for. So it is with the looks at how far surfaces moved,
+ * once they found nothing: they are put down on the device, and the stretch stands where each found nothing. */
 #ifndef BRC_SOLVER_AHEAD_H
 #define BRC_SOLVER_AHEAD_H
 
 #include "../../simulation.h"
+#include "../effect.h"
 
 enum { BRC_AHEAD_FEWEST = 16, BRC_AHEAD_MOST = 256 };
 
-/* Steps, of at most n, that may now be taken ahead; 0: each is to be known. */
-int64_t brc_ahead_steps(const brc_simulation *s, int64_t n);
-/* A stretch begins: what its steps change is copied on the device. */
-brc_status brc_ahead_begin(brc_simulation *s);
-/* It has ended. *stands: nothing was to break; else the simulation is where it was at the beginning. */
-brc_status brc_ahead_end(brc_simulation *s, bool *stands);
+/* Of fracture, and of contact alone. */
+extern const brc_effect_ahead brc_steps_ahead;
 /* A stretch is being taken ... */
 bool brc_ahead_is_on(const brc_simulation *s);
 /* ... of beams none of which is broken. */

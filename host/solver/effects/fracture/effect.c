@@ -74,12 +74,11 @@ static const brc_hooked hooked[] = {{.hook = BRC_HOOK_BEGIN, .plain = brc_fractu
                                     {.hook = BRC_HOOK_BROKEN, .call = count},
                                     {.hook = BRC_HOOK_STORE, .call = store},
                                     {.hook = BRC_HOOK_STRETCH, .call = stretch}};
-static const brc_effect_ahead ahead = {brc_ahead_steps, brc_ahead_begin, brc_ahead_end};
 const brc_effect brc_fracture_effect = {
     .name = "fracture",
     .in = breaks,
     .ask = ask,
-    .ahead = &ahead,
+    .ahead = &brc_steps_ahead,
     .live = live,
     .fields = (const brc_field_table *const[]){&brc_break_fields, &brc_criterion_fields, &brc_cell_break_fields,
                                                &brc_ring_fields, &brc_ring_list_fields, NULL},

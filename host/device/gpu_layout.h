@@ -1,0 +1,9 @@
+/* How work lies on a GPU (docs/notebook/devices.md): one element a work-item, and these. */
+#ifndef BRC_DEVICE_GPU_LAYOUT_H
+#define BRC_DEVICE_GPU_LAYOUT_H
+
+/* Work-items a group, which bound what kernels have of registers and of local memory and share what they gather;
+ * elements a slice of the storage. */
+enum { BRC_GPU_GROUP = 256, BRC_GPU_SLICE = 32 };
+
+#endif
