@@ -10,7 +10,7 @@
 #define TERMINAL_INTERVAL_S 0.2
 #define LINE_INTERVAL_S 10.0
 #define LINE_INTERVAL_PART 0.05
-#define LINE_LEAST_S 1.0 /* a task of a second is not worth twenty lines */
+#define LINE_LEAST_S 1.0 /* a task of a second is not worth a line that stays */
 
 struct brc_progress {
     brc_context *context;
@@ -21,6 +21,7 @@ struct brc_progress {
     double shown_s;     /* clock when the line was last shown */
     int64_t shown_done; /* units done then */
     bool terminal;
+    bool told;      /* was it shown at all? */
     bool on_screen; /* a line without newline stands on the terminal */
     char what[64];
     char unit_name[32];
@@ -127,6 +128,7 @@ static void show(brc_progress *progress, bool last)
     const double elapsed = now - progress->started_s;
     progress->shown_s = now;
     progress->shown_done = progress->done;
+    progress->told = true;
     if (!progress->context || progress->context->level < BRC_LOG_INFO || progress->context->sink) return;
 
     char line[400], spent[32], rate[32], left[32] = "";
@@ -171,9 +173,8 @@ brc_status brc_progress_create(brc_context *context, brc_progress **out, const c
         snprintf(progress->rate_name, sizeof progress->rate_name, "%s", rate_name);
     else
         snprintf(progress->rate_name, sizeof progress->rate_name, "%.29s/s", unit_name);
-    progress->started_s = brc_clock_s();
+    progress->started_s = progress->shown_s = brc_clock_s();
     if (context) context->progress = progress;
-    show(progress, false);
     *out = progress;
     return BRC_OK;
 }
@@ -184,16 +185,17 @@ void brc_progress_update(brc_progress *progress, int64_t done)
     progress->done = done;
     const double waited_s = brc_clock_s() - progress->shown_s;
     const double part = (double)(done - progress->shown_done);
+    const bool is_part = progress->total > 0 && part >= LINE_INTERVAL_PART * (double)progress->total;
     if (progress->terminal ? waited_s >= TERMINAL_INTERVAL_S
-                           : waited_s >= LINE_INTERVAL_S || (progress->total > 0 && waited_s >= LINE_LEAST_S &&
-                                                             part >= LINE_INTERVAL_PART * (double)progress->total))
+                           : waited_s >= LINE_INTERVAL_S || (waited_s >= LINE_LEAST_S && (is_part || !progress->told)))
         show(progress, false);
 }
 
 void brc_progress_finish(brc_progress **progress)
 {
     if (!progress || !*progress) return;
-    show(*progress, true);
+    if (brc_clock_s() - (*progress)->started_s >= LINE_LEAST_S) show(*progress, true);
+    clear_line(*progress);
     brc_context *context = (*progress)->context;
     if (context && context->progress == *progress) context->progress = NULL;
     brc_memory_free(*progress);

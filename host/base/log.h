@@ -1,6 +1,6 @@
 /* Log lines and the progress line. On a terminal the progress line is redrawn in place at most five times a second; in
- * a file or a pipe it is one line now and then (at start, then when 10 s have passed, or 5 % and a second, and at the
- * end). */
+ * a file or a pipe it is one line now and then (after a second, then when 10 s have passed, or 5 % and a second). The
+ * last one stays. A task of less than a second leaves none. */
 #ifndef BRC_BASE_LOG_H
 #define BRC_BASE_LOG_H
 
@@ -28,7 +28,7 @@ brc_status brc_progress_create(brc_context *context, brc_progress **out, const c
                                const char *unit_name, double rate_per_unit, const char *rate_name);
 /* done: units finished so far. Cheap enough to call every step batch. Shows percent, rate, elapsed, time left. */
 void brc_progress_update(brc_progress *progress, int64_t done);
-/* Last line, newline, free; accepts a pointer to NULL. */
+/* Last line and newline if it took a second, free; accepts a pointer to NULL. */
 void brc_progress_finish(brc_progress **progress);
 
 /* Monotonic wall clock [s]. */

@@ -1,6 +1,7 @@
 /* breccia run: simulate a scene and write its results. */
 #include "command.h"
 #include "run_scene.h"
+#include "../output/pictures/label.h"
 #include <math.h>
 
 static const brc_option options[] = {
@@ -15,16 +16,20 @@ static const brc_option options[] = {
 
 static void print_measures(const brc_run_results *results)
 {
-    if (results->n_measures > 0) printf("\n%-20s %16s %16s %12s  %s\n", "measure", "value", "target", "error", "unit");
+    if (results->n_measures > 0) printf("\n%-20s %16s %16s %12s\n", "measure", "value", "target", "error");
     for (int32_t k = 0; k < results->n_measures; ++k) {
         const brc_run_measure *measure = &results->measures[k];
-        if (isnan(measure->value))
+        char value[64], target[64] = "", error[32] = "";
+        if (isnan(measure->value)) {
             printf("%-20s not measured: %s\n", measure->name, measure->why_not);
-        else if (measure->has_target)
-            printf("%-20s %16.9g %16.9g %12.2e  %s\n", measure->name, measure->value, measure->target, measure->error,
-                   measure->unit);
-        else
-            printf("%-20s %16.9g %16s %12s  %s\n", measure->name, measure->value, "-", "-", measure->unit);
+            continue;
+        }
+        brc_label_value(measure->value, measure->unit, 6, value);
+        if (measure->has_target) {
+            brc_label_value(measure->target, measure->unit, 6, target);
+            brc_label_error(measure->value, measure->target, measure->error, error);
+        }
+        printf("%-20s %16s %16s %12s\n", measure->name, value, target, error);
     }
 }
 

@@ -118,14 +118,6 @@ static void add_steps(brc_text *text, const brc_measure_series *series, double f
     if (high - low > 0 && isfinite(high - low)) brc_text_add(text, "set xtics %.12g\n", brc_label_step(high - low, 6));
 }
 
-static void number_with_unit(double value, const char *unit, char out[96])
-{
-    char prefixed[32];
-    const double factor = brc_label_unit(unit, fabs(value), prefixed);
-    snprintf(out, 96, "%.6g%s%s", factor * value, strcmp(unit, "-") == 0 ? "" : " ",
-             strcmp(unit, "-") == 0 ? "" : prefixed);
-}
-
 static void add_script(brc_text *text, const brc_scene *scene, const brc_measure *measure,
                        const brc_measure_series *series, const brc_fit *fit, double target, const char *unit_x,
                        const char *unit_y, const char *picture)
@@ -134,7 +126,7 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
     const axis y = make_axis(measure->area_set[0] ? "stress" : measure->y, unit_y, largest(series->n, series->y));
     const char *unit = brc_measure_unit(scene, measure);
     const double to_axes = y.factor / x.factor;
-    char title[256], slope[96], before[32];
+    char title[256], slope[64], before[32];
     sign_and_scale(measure, before);
     clean_words(title, sizeof title, scene->title);
     brc_gnuplot_begin(text, 1200, 900, picture);
@@ -153,12 +145,12 @@ static void add_script(brc_text *text, const brc_scene *scene, const brc_measure
         brc_text_add(text, "plot $data using 1:2 title \"simulation\" with %s linecolor rgb '#222222'\n", lines);
         return;
     }
-    number_with_unit(fit->coefficient[1], unit, slope);
+    brc_label_value(fit->coefficient[1], unit, 6, slope);
     brc_text_add(text, "slope(x) = %.12g + %.12g * x\n", y.factor * fit->coefficient[0], to_axes * fit->coefficient[1]);
     brc_text_add(text, "plot slope(x) title \"slope at zero: %s\" with lines linewidth 2 linecolor rgb '#4477aa'",
                  slope);
     if (isfinite(target)) {
-        number_with_unit(target, unit, slope);
+        brc_label_value(target, unit, 6, slope);
         brc_text_add(text,
                      ", \\\n %.12g + %.12g * x title \"target: %s\" with lines linewidth 2 dashtype 2 "
                      "linecolor rgb '#cc6677'",

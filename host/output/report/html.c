@@ -1,5 +1,6 @@
 #include "html.h"
 #include "web_file.h"
+#include "../pictures/label.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -38,44 +39,79 @@ void brc_html_end(brc_text *page)
     brc_text_add(page, "</body></html>\n");
 }
 
-void brc_html_key(brc_text *page, const char *key)
+/* The unit that the name of a value ends in, and the length of the name before it. */
+static const char *unit_of(const char *key, size_t *length)
 {
-    static const char *const unit[][2] = {{"_J_per_m2", "J/m^2"}, {"_per_s", "1/s"}, {"_m2", "m^2"},
-                                          {"_kg", "kg"},          {"_J", "J"},       {"_s", "s"},
-                                          {"_bytes", ""},         {"_deg", "deg"}};
-    size_t length = strlen(key);
-    const char *of = "";
+    static const char *const unit[][2] = {
+        {"_J_per_m2", "J/m^2"}, {"_per_s", "1/s"}, {"_m2", "m^2"}, {"_kg", "kg"}, {"_J", "J"}, {"_m", "m"}, {"_s", "s"},
+        {"_bytes", ""},         {"_deg", "deg"}};
+    *length = strlen(key);
     for (size_t k = 0; k < sizeof unit / sizeof *unit; ++k) {
         const size_t n = strlen(unit[k][0]);
-        if (length <= n || strcmp(key + length - n, unit[k][0]) != 0) continue;
-        length -= n;
-        of = unit[k][1];
-        break;
+        if (*length <= n || strcmp(key + *length - n, unit[k][0]) != 0) continue;
+        *length -= n;
+        return unit[k][1];
     }
+    return "";
+}
+
+static void add_name(brc_text *page, const char *key, size_t length)
+{
     char words[128];
     snprintf(words, sizeof words, "%.*s", (int)(length < 100 ? length : 100), key);
     for (char *s = words; *s; ++s)
         if (*s == '_') *s = ' ';
     brc_html_words(page, words);
-    if (of[0]) brc_text_add(page, " [%s]", of);
+}
+
+void brc_html_key(brc_text *page, const char *key)
+{
+    size_t length;
+    unit_of(key, &length);
+    add_name(page, key, length);
+}
+
+/* Above numbers that share their unit. */
+static void add_heading(brc_text *page, const char *key)
+{
+    size_t length;
+    const char *unit = unit_of(key, &length);
+    add_name(page, key, length);
+    if (unit[0]) brc_text_add(page, " [%s]", unit);
+}
+
+static bool is_of_bytes(const char *key)
+{
+    const size_t length = key ? strlen(key) : 0;
+    return length >= 5 && strcmp(key + length - 5, "bytes") == 0;
+}
+
+static void add_number(brc_text *page, const char *key, const char *text, double value)
+{
+    size_t length;
+    char shown[64];
+    const char *unit = key ? unit_of(key, &length) : "";
+    if (is_of_bytes(key))
+        snprintf(shown, sizeof shown, "%.4g %s", value / (value < 1e9 ? 1e6 : 1e9), value < 1e9 ? "MB" : "GB");
+    else
+        brc_label_value(value, unit, 5, shown);
+    brc_text_add(page, "<span title=\"%s%s%s\">%s</span>", text, unit[0] ? " " : "", unit, shown);
 }
 
 void brc_html_scalar(brc_text *page, const char *key, const char *text)
 {
     char *end;
+    size_t length;
     const double value = strtod(text, &end);
-    const size_t length = key ? strlen(key) : 0;
+    const bool is_plain = !key || (!is_of_bytes(key) && !unit_of(key, &length)[0]);
     if (strcmp(text, "null") == 0 || !text[0])
         brc_text_add(page, "&ndash;");
     else if (*end || end == text)
         brc_html_words(page, text);
-    else if (length >= 5 && strcmp(key + length - 5, "bytes") == 0)
-        brc_text_add(page, "<span title=\"%s\">%.4g %s</span>", text, value / (value < 1e9 ? 1e6 : 1e9),
-                     value < 1e9 ? "MB" : "GB");
-    else if (value == rint(value) && fabs(value) < 1e15 && !strpbrk(text, ".eE"))
+    else if (is_plain && value == rint(value) && fabs(value) < 1e15 && !strpbrk(text, ".eE"))
         brc_html_words(page, text);
     else
-        brc_text_add(page, "<span title=\"%s\">%.5g</span>", text, value);
+        add_number(page, key, text, value);
 }
 
 static bool all_are(const brc_node *node, brc_node_kind kind)
@@ -100,7 +136,7 @@ static void add_table_of_maps(brc_text *page, const brc_node *node)
     brc_text_add(page, "<table><tr>%s", node->kind == BRC_NODE_MAP ? "<th></th>" : "");
     for (int k = 0; k < n; ++k) {
         brc_text_add(page, "<th>");
-        brc_html_key(page, column[k]);
+        add_heading(page, column[k]);
         brc_text_add(page, "</th>");
     }
     brc_text_add(page, "</tr>\n");
@@ -114,7 +150,7 @@ static void add_table_of_maps(brc_text *page, const brc_node *node)
         for (int k = 0; k < n; ++k) {
             const brc_node *cell = brc_node_find(row, column[k]);
             brc_text_add(page, "<td>");
-            if (cell) brc_html_value(page, column[k], cell);
+            if (cell) brc_html_value(page, is_of_bytes(column[k]) ? column[k] : NULL, cell);
             brc_text_add(page, "</td>");
         }
         brc_text_add(page, "</tr>\n");

@@ -10,10 +10,10 @@ void brc_html_begin(brc_text *page, const char *title);
 void brc_html_end(brc_text *page);
 /* Words with what HTML would read as marks escaped. */
 void brc_html_words(brc_text *page, const char *words);
-/* The name of a value of summary.json: "peak_elastic_J" is "peak elastic [J]". */
+/* The name of a value of summary.json without its unit: "peak_elastic_J" is "peak elastic". */
 void brc_html_key(brc_text *page, const char *key);
-/* A number with five digits, the whole one on hovering; anything else as words; null is a dash. `key` may be NULL;
- * where it ends in "bytes" MB and GB are written. */
+/* A number with five digits in the unit that `key` ends in, prefixed as suits it, the whole one on hovering; anything
+ * else as words; null is a dash. `key` may be NULL: no unit. */
 void brc_html_scalar(brc_text *page, const char *key, const char *text);
 /* Any value: a scalar, a map as a table of two columns, a list of maps (or a map of maps) as one with a column a key,
  * another list as words with semicolons. */

@@ -288,7 +288,7 @@ static brc_status add_run(brc_context *context, const char *folder, const brc_no
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, read_scene(context, folder, &scene));
     BRC_TRY_OR(cleanup, add_data(context, folder, scene, summary, &data, &has_view));
-    brc_report_summary_head(page, summary);
+    brc_report_summary_head(page, summary, folder);
     brc_report_summary_results(page, summary);
     add_places(page);
     BRC_TRY_OR(cleanup, add_pictures(context, page, folder, has_view));
@@ -321,7 +321,7 @@ brc_status brc_report_write(brc_context *context, const char *folder, const char
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_file_join(context, folder, "report.html", &place));
-    brc_html_begin(&page, summary.root ? brc_report_summary_text(summary.root, "title") : folder);
+    brc_html_begin(&page, summary.root ? brc_report_summary_title(summary.root, folder) : folder);
     if (rows.root) {
         brc_text_add(&page, "<h2>Rows</h2>\n");
         brc_html_value(&page, NULL, rows.root);

@@ -6,8 +6,10 @@
 
 /* The text of a scalar of a map, "" where it is missing or null; map may be NULL. */
 const char *brc_report_summary_text(const brc_node *map, const char *key);
+/* The title of the scene; without one the folder. */
+const char *brc_report_summary_title(const brc_node *summary, const char *folder);
 /* Title, what ran, how it ended. */
-void brc_report_summary_head(brc_text *page, const brc_node *summary);
+void brc_report_summary_head(brc_text *page, const brc_node *summary, const char *folder);
 /* Measures and figures of fracture; nothing where there are none. */
 void brc_report_summary_results(brc_text *page, const brc_node *summary);
 /* Ledger, timing and memory, with shares. */

@@ -241,7 +241,7 @@ static void lightness_rises_evenly_along_the_sequential_map(void **state)
 static void labels_are_round_and_carry_prefixes(void **state)
 {
     (void)state;
-    char words[32];
+    char words[64];
     assert_true(brc_label_step(1.0, 5) == 0.2);
     assert_true(fabs(brc_label_unit("Pa", 3.2e7, words) / 1e-6 - 1) < 1e-15);
     assert_string_equal(words, "MPa");
@@ -255,6 +255,20 @@ static void labels_are_round_and_carry_prefixes(void **state)
     assert_string_equal(words, "0.0");
     brc_label_number(2e-7, 5e-8, words);
     assert_string_equal(words, "2.0e-07");
+    assert_true(brc_label_unit("kg", 2.5e-3, words) == 1e3);
+    assert_string_equal(words, "g");
+    assert_true(brc_label_unit("m^2", 6.3e-3, words) == 1e6);
+    assert_string_equal(words, "mm^2");
+    brc_label_value(8062403.6, "Pa", 5, words);
+    assert_string_equal(words, "8.0624 MPa");
+    brc_label_value(4.564, "N m", 4, words);
+    assert_string_equal(words, "4.564 N m");
+    brc_label_value(0.25, "-", 5, words);
+    assert_string_equal(words, "0.25");
+    brc_label_error(8.0624e6, 8e6, 0.0078, words);
+    assert_string_equal(words, "+0.78 %");
+    brc_label_error(0.202, 0.2, 0.002, words);
+    assert_string_equal(words, "+0.002");
 }
 
 /* Pixels of a drawn box of 2 x 1 x 1 m, seen from a side: wide and tall. */

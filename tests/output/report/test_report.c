@@ -9,7 +9,10 @@ static const char SUMMARY[] =
     "{\n  \"version\": \"1\",\n  \"title\": \"A <b>bar</b> & more\",\n  \"steps\": 12,\n"
     "  \"ledger\": {\"kinetic_J\": 0.5, \"peak_elastic_J\": 2},\n  \"memory\": {\"host_bytes\": 2500000},\n"
     "  \"timing\": {\"total_s\": 8, \"steps_s\": 2},\n"
-    "  \"measures\": {\"E\": {\"value\": 72.1234567e9, \"unit\": \"Pa\", \"error\": null}},\n"
+    "  \"measures\": {\"E\": {\"value\": 72.1234567e9, \"unit\": \"Pa\", \"target\": null, \"error\": null},\n"
+    "    \"nu\": {\"value\": 0.202, \"unit\": \"-\", \"target\": 0.2, \"error\": 0.002},\n"
+    "    \"load\": {\"value\": 5050, \"unit\": \"N\", \"target\": 5000, \"error\": 0.01}},\n"
+    "  \"fracture\": {\"tension\": 3, \"crack_area_m2\": 0.0063, \"energy\": {\"released_J\": 2.5e-4}},\n"
     "  \"effects\": {\"in\": [\"one\", \"two\"], \"out\": []},\n"
     "  \"end\": {\"status\": \"done\", \"reason\": \"one\\ntwo \\\\name\"}\n}\n";
 
@@ -39,10 +42,16 @@ static void a_page_holds_values_shares_and_pictures_and_needs_nothing_else(void 
     char *page = test_read(test_path(folder, "report.html"));
     assert_non_null(strstr(page, "A &lt;b&gt;bar&lt;/b&gt; &amp; more"));
     assert_null(strstr(page, "<b>bar"));
-    assert_non_null(strstr(page, "<th>kinetic [J]</th><td><span title=\"0.5\">0.5</span></td><td>25 %</td>"));
-    assert_non_null(strstr(page, "<th>steps [s]</th><td>2</td><td>25 %</td>"));
+    assert_non_null(strstr(page, "<th>kinetic</th><td><span title=\"0.5 J\">500 mJ</span></td><td>25 %</td>"));
+    assert_non_null(strstr(page, "<th>steps</th><td><span title=\"2 s\">2 s</span></td><td>25 %</td>"));
     assert_non_null(strstr(page, "2.5 MB"));
-    assert_non_null(strstr(page, "<span title=\"72.1234567e9\">7.2123e+10</span>"));
+    assert_non_null(strstr(page, "<tr><th>E</th><td><span title=\"72.1234567e9 Pa\">72.123 GPa</span></td>"
+                                 "<td>&ndash;</td><td>&ndash;</td><td></td></tr>"));
+    assert_non_null(strstr(page, "0.2</span></td><td>+0.002</td>")); /* a difference, no share */
+    assert_non_null(strstr(page, "5.05 kN</span></td><td><span title=\"5000 N\">5 kN</span></td><td>+1 %</td>"));
+    assert_non_null(strstr(page, "<th>bonds broken in tension</th><td>3</td>"));
+    assert_non_null(strstr(page, "6300 mm^2</span>"));
+    assert_non_null(strstr(page, "250 \xc2\xb5J</span>"));
     assert_non_null(strstr(page, "one; two"));
     assert_non_null(strstr(page, "one  two \\name"));
     assert_int_equal(count(page, "data:image/png;base64,"), 3);
