@@ -56,6 +56,7 @@
 #include "effects/contact/contact_rigid.cl"
 #include "models/dlsm/softening_record.cl"
 #include "models/dlsm/softening.cl"
+#include "models/dlsm/softening_screen.cl"
 #include "models/dlsm/softening_onset.cl"
 #include "models/dlsm/closed_faces.cl"
 #include "models/cbm/beam_carried.h"

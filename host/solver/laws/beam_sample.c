@@ -8,6 +8,7 @@
 #include "../../base/memory.h"
 #include "beam_body.h"
 #include "../simulation.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -134,6 +135,14 @@ static void evaluate(const brc_domain *d, int32_t set[3][2], int axis, const dou
     out->poisson = (out->lateral[0] + out->lateral[1]) / 2;
 }
 
+/* Multigrid pays where solves take long: diagonal blocks want some 1.5 iterations a digit and element along an edge,
+ * and its levels cost as much as 350 of those to make (bench/results/2026-11-26-2cores-calibrate.csv). */
+static brc_preconditioner_kind preconditioner_of(const brc_domain *domain, double tolerance)
+{
+    const double iterations = -1.5 * cbrt((double)domain->n_elements) * log10(tolerance);
+    return iterations < 350 ? BRC_PRECONDITIONER_BLOCKS : BRC_PRECONDITIONER_AUTO;
+}
+
 brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const brc_domain *domain,
                                 const brc_beam_pull *pull, brc_beam_answer *out)
 {
@@ -167,6 +176,7 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
                        .loads = loads,
                        .tolerance = pull->tolerance > 0 ? pull->tolerance : 1e-5,
                        .increments = 1};
+    stage.preconditioner = preconditioner_of(domain, stage.tolerance);
     brc_scene scene = {
         .version = 1,
         .folder = ".",

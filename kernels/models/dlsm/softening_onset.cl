@@ -39,76 +39,101 @@ LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shea
            failure_possible(stress, (failure_limits){limit, 0, shear}, (failure_shear){0, slope, slope});
 }
 
+/* The bond of one entry of an element, which may have a stress above its limit: 1 where it is marked. */
+LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int shears, coeff slope, OWN(int) neighbour,
+                        GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta,
+                        coeff one_plus_tau, GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient,
+                        GATHER(coeff) stress, GATHER(coeff) flux, GATHER(coeff) bond_part, OWN(coeff) limit,
+                        OWN(coeff) shear_limit, PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack)
+{
+    if (!(limit[entry] < CELLS_NEVER)) return 0;
+    const int j = neighbour[entry], both = n_open[e] && n_open[j];
+    const soft_vector s = soft_area(area, entry);
+    const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau,
+                                              ratio[entry], soft_jump(displacement, e, j));
+    const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
+    const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
+    const failure_stress whole = soft_stress(soft_mean_stress(gradient, stress, e, j), traction, normal);
+    const soft_vector none = {0, 0, 0},
+                      uneven = both ? soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau) : none;
+    const coeff edge_most = both ? soft_edge(0, uneven, force, normal, s, ratio[entry]) : REAL(0);
+    if (!soft_possible(whole, edge_most, share * limit[entry], shears ? share * shear_limit[entry] : REAL(0), slope))
+        return 0;
+    const failure_principal largest = failure_principal_of(whole);
+    const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
+    const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
+    const coeff edge = both ? soft_edge(largest.third, uneven, force, normal, s, ratio[entry]) : REAL(0);
+    const int bends = edge > largest.first;
+    const coeff worst = bends ? edge : largest.first;
+    if (shears) {
+        const failure_state slip = soft_slip(largest, traction, normal, share * shear_limit[entry], slope);
+        const soft_vector plane = soft_slip_plane(slip, normal);
+        const coeff leans = soft_dot(plane, normal);
+        const int nearer = slip.ratio * share * limit[entry] >= worst || (!bends && size < steepest);
+        if (slip.ratio > REAL(1) && nearer && !(leans < steepest)) {
+            mark[entry] = SOFT_WISH;
+            measure[entry] = slip.stress;
+            SOFT_NUMBER(entry, TURNS) = SOFT_SLIDES;
+            SOFT_NUMBER(entry, COSINE) = leans;
+            soft_put(crack, entry, SOFT_AXIS, plane);
+            return 1;
+        }
+    }
+    if (!(worst > share * limit[entry]) || (!bends && size < steepest)) return 0;
+    const int turned = size < steepest || largest.first < REAL(0.5) * worst;
+    mark[entry] = SOFT_WISH;
+    measure[entry] = worst;
+    SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
+    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : size;
+    soft_put(crack, entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
+    return 1;
+}
+
 /* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and
  * axis is at least steepest) are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress
- * is below screen * limit of their weakest bond do not look: the largest principal value is not above the Frobenius
- * norm; shear_least: norm below which no face slides [Pa]. found [n]. */
-KERNEL void soft_check(int n, coeff share, coeff steepest, coeff screen, int shears, coeff slope, coeff shear_least,
-                       OWN(int) row_start, OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio,
-                       coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GATHER(coeff) modulus,
-                       GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) flux,
-                       GATHER(coeff) bond_part, OWN(coeff) least, OWN(coeff) limit, OWN(coeff) shear_limit,
-                       PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack, PUT(state) found)
+ * is below screen * limit of their weakest bond do not look; shear_least: norm below which no face slides [Pa].
+ * found [n]. */
+KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, int shears, coeff slope,
+                       coeff shear_least, OWN(int) row_start, OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area,
+                       OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                       GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
+                       GATHER(coeff) flux, GATHER(coeff) bond_part, OWN(coeff) least, OWN(coeff) limit,
+                       OWN(coeff) shear_limit, PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack, PUT(state) found)
 {
-    FOR_EACH_ITEM(e, n) {
-        GLOBAL const coeff *p = stress + (brc_size)e * 9, *h = gradient + (brc_size)e * 9;
-        coeff square = 0, strain = 0;
-        int count = 0;
-        for (int c = 0; c < 9; ++c) square += p[c] * p[c], strain += h[c] * h[c];
-        const coeff weakest = shears && shear_least < least[e] ? shear_least : least[e];
-        const coeff bound = screen * share * weakest / (REAL(1) + SQRT(strain));
-        const int look = n_open[e] > 0 || square > bound * bound;
-        for (int slot = row_start[e / C]; look && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY;
-            if (!(limit[entry] < CELLS_NEVER)) continue;
-            const int j = neighbour[entry];
-            const soft_vector s = soft_area(area, entry);
-            const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau,
-                                                      ratio[entry], soft_jump(displacement, e, j));
-            const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
-            const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
-            const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
-            const failure_stress whole = soft_stress(mean, traction, normal);
-            const soft_vector uneven = n_open[e] && n_open[j]
-                                           ? soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau)
-                                           : (soft_vector){0, 0, 0};
-            const coeff edge_most =
-                n_open[e] && n_open[j] ? soft_edge(0, uneven, force, normal, s, ratio[entry]) : REAL(0);
-            if (!soft_possible(whole, edge_most, share * limit[entry], shears ? share * shear_limit[entry] : REAL(0),
-                               slope))
-                continue;
-            const failure_principal largest = failure_principal_of(whole);
-            const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
-            const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
-            const coeff edge =
-                n_open[e] && n_open[j] ? soft_edge(largest.third, uneven, force, normal, s, ratio[entry]) : REAL(0);
-            const int bends = edge > largest.first;
-            const coeff worst = bends ? edge : largest.first;
-            if (shears) {
-                const failure_state slip = soft_slip(largest, traction, normal, share * shear_limit[entry], slope);
-                const soft_vector plane = soft_slip_plane(slip, normal);
-                const coeff leans = soft_dot(plane, normal);
-                const int nearer = slip.ratio * share * limit[entry] >= worst || (!bends && size < steepest);
-                if (slip.ratio > REAL(1) && nearer && !(leans < steepest)) {
-                    mark[entry] = SOFT_WISH;
-                    measure[entry] = slip.stress;
-                    SOFT_NUMBER(entry, TURNS) = SOFT_SLIDES;
-                    SOFT_NUMBER(entry, COSINE) = leans;
-                    soft_put(crack, entry, SOFT_AXIS, plane);
-                    count += 1;
-                    continue;
-                }
-            }
-            if (!(worst > share * limit[entry]) || (!bends && size < steepest)) continue;
-            const int turned = size < steepest || largest.first < REAL(0.5) * worst;
-            mark[entry] = SOFT_WISH;
-            measure[entry] = worst;
-            SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-            SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : size;
-            soft_put(crack, entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
-            count += 1;
+    FOR_EACH_ITEM(group, n_groups) {
+        const members who = members_of_group(group, row_start);
+        const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
+        const soft_members which =
+            soft_looking(who, h, p, screen * share, shears ? shear_least : CELLS_NEVER, n_open, least);
+        const lane_sym3 own = soft_present_stress(h, p);
+        const dlsm_end end = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
+        int count[W];
+        for (int l = 0; l < W; ++l) count[l] = 0;
+        for (int slot = who.begin; which.looking && slot < who.end; ++slot) {
+            const lane_int j = members_neighbour(who, neighbour, slot);
+            members_gathers_ahead9(who, gradient, neighbour, slot);
+            members_gathers_ahead9(who, stress, neighbour, slot);
+            members_ahead1(who, limit, slot);
+            const dlsm_pull pull = dlsm_pull_at(who, slot, end, neighbour, area, ratio, displacement, flux, bond_part,
+                                                one_plus_tau, modulus);
+            const lane_mat3 beside = lane_gather9(gradient, j);
+            const soft_bounds below = {share * members_row1(who, limit, slot),
+                                       shears ? share * soft_half_of(members_row1(who, shear_limit, slot)) : LANE_ZERO,
+                                       shears ? REAL(1.4143) * (REAL(1) + slope) : REAL(0)};
+            int near = soft_near(lane_mat3_add(h, beside),
+                                 lane_sym3_add(own, soft_present_stress(beside, lane_gather9(stress, j))), pull, below);
+#define EDGES(l) near |= (which.open >> 0x##l & 1 && n_open[LANE_ITEM(j, l)] > 0) << 0x##l;
+            if (which.open) { LANE_EACH(EDGES) }
+#undef EDGES
+            near &= which.looking;
+            for (int l = 0; near >> l; ++l)
+                if (near >> l & 1)
+                    count[l] += soft_check_bond(who.first + l, (brc_size)slot * C + (brc_size)(who.lane0 + l), share,
+                                                steepest, shears, slope, neighbour, n_open, area, ratio, k_one, ell_one,
+                                                beta, one_plus_tau, modulus, displacement, gradient, stress, flux,
+                                                bond_part, limit, shear_limit, mark, measure, crack);
         }
-        found[e] = (state)count;
+        for (int l = 0; l < W; ++l) found[who.first + l] = (state)count[l];
     }
 }
 

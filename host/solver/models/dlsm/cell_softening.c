@@ -344,7 +344,7 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
         BRC_TRY(brc_vector_sum(s, c->found, n, n_ended));
         BRC_TRY(BRC_RUN(f->book, n, {"step", BRC_INT((int32_t)brc_fracture_moment(s))}));
     }
-    BRC_TRY(BRC_RUN(f->check, n, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
+    BRC_TRY(BRC_RUN(f->check, s->n_groups, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
                     {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
                     {"slope", BRC_COEFF(sin(s->scene->fracture.friction))},
                     {"shear_least", BRC_COEFF(f->shear_least)}));
