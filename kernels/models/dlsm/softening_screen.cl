@@ -52,16 +52,16 @@ typedef struct {
  * above a limit. gradient, stress: sums over the two cells; pull: the bond's. */
 LAW int soft_near(lane_mat3 gradient, lane_sym3 stress, dlsm_pull pull, soft_bounds below)
 {
-    const lane half = LANE_ZERO + REAL(0.5), tiny = LANE_ZERO + REAL(1e-30), one = LANE_ZERO + REAL(1);
+    const lane middle = LANE_ZERO + REAL(0.5), tiny = LANE_ZERO + REAL(1e-30), one = LANE_ZERO + REAL(1);
     const lane per = one / below.limit; /* so that no limit, 1e30 Pa, overflows nothing */
     const lane_vec3 branch = lane_vec3_scale(pull.ratio, pull.area);
-    const lane_vec3 turned = lane_vec3_add(branch, lane_vec3_scale(half, lane_mat3_mul_vec(gradient, branch)));
+    const lane_vec3 turned = lane_vec3_add(branch, lane_vec3_scale(middle, lane_mat3_mul_vec(gradient, branch)));
     const lane_vec3 n = lane_vec3_scale(one / LANE_SQRT(lane_vec3_dot(turned, turned) + tiny), turned);
     const lane over = per * pull.ratio / LANE_SQRT(lane_vec3_dot(branch, branch) + tiny); /* 1 / (area limit) */
-    const lane_sym3 mean = lane_sym3_scale_shift(half * per, stress, LANE_ZERO);
+    const lane_sym3 mean = lane_sym3_scale_shift(middle * per, stress, LANE_ZERO);
     const lane_vec3 own = lane_sym3_mul_vec(mean, n);
     const lane_vec3 t = {over * pull.force.x - own.x, over * pull.force.y - own.y, over * pull.force.z - own.z};
-    const lane_vec3 m = lane_vec3_add(t, lane_vec3_scale(-half * lane_vec3_dot(t, n), n));
+    const lane_vec3 m = lane_vec3_add(t, lane_vec3_scale(-middle * lane_vec3_dot(t, n), n));
     const lane xx = mean.xx + REAL(2) * m.x * n.x, yy = mean.yy + REAL(2) * m.y * n.y,
                zz = mean.zz + REAL(2) * m.z * n.z, yz = mean.yz + m.y * n.z + m.z * n.y,
                xz = mean.xz + m.x * n.z + m.z * n.x, xy = mean.xy + m.x * n.y + m.y * n.x;
