@@ -10,12 +10,17 @@ enum { AT_ONCE = 64, SAMPLES = 256 }; /* blocks packed before they are written; 
  * doubles that differ have a sixth (signs and exponents), which is not worth the time, counts and zeros most. Others
  * always are: floats shrink by a twelfth to a seventh. A last block that is not full is packed for what fills it up. */
 #define WORTH_PACKING 0.2
+/* Of deflate: codes are renewed every 8192 signs, which suits bytes that change from place to place. */
+#define MEMORY 7
 
 /* What is packed: rows of `width` bytes in all, numbers of `bytes` bytes. */
 typedef struct packing {
     const char *data;
     int64_t rows, block, width, bytes;
+    bool either; /* whichever is smaller, bytes together by their place or as they are */
 } packing;
+
+enum { AS_THEY_ARE = 1, NOT_PACKED = 3 }; /* filters left out: shuffle is the first, deflate the second */
 
 /* Block k with bytes of equal place together; behind the last row zeros. */
 static void shuffle(const packing *p, int64_t k, unsigned char *out)
@@ -42,17 +47,37 @@ static bool is_worth_packing(const packing *p, int64_t k)
     return (double)equal >= WORTH_PACKING * (double)(seen * p->bytes);
 }
 
-/* Bytes of block k packed into out, which has room for `room`; 0: memory is exhausted. */
-static int64_t pack(const packing *p, int64_t k, unsigned char *scratch, unsigned char *out, int64_t room)
+/* Bytes of a block deflated into out, which has room for `room`; 0: memory is exhausted. */
+static int64_t deflated(const packing *p, const unsigned char *block, unsigned char *out, int64_t room)
 {
-    z_stream z = {
-        .next_in = scratch, .avail_in = (uInt)(p->block * p->width), .next_out = out, .avail_out = (uInt)room};
-    shuffle(p, k, scratch);
-    if (deflateInit2(&z, 1, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY) != Z_OK) return 0;
+    z_stream z = {.next_in = (unsigned char *)(uintptr_t)block,
+                  .avail_in = (uInt)(p->block * p->width),
+                  .next_out = out,
+                  .avail_out = (uInt)room};
+    if (deflateInit2(&z, 1, Z_DEFLATED, MAX_WBITS, MEMORY, Z_DEFAULT_STRATEGY) != Z_OK) return 0;
     const bool done = deflate(&z, Z_FINISH) == Z_STREAM_END;
     const int64_t bytes = (int64_t)z.total_out;
     deflateEnd(&z);
     return done ? bytes : 0;
+}
+
+/* Bytes of block k packed into out; 0: memory is exhausted. scratch: room for a block, and for a packed one behind it.
+ * *skipped: filters that were left out. */
+static int64_t pack(const packing *p, int64_t k, unsigned char *scratch, unsigned char *out, int64_t room,
+                    uint32_t *skipped)
+{
+    const int64_t raw = p->block * p->width, rest = (p->rows - k * p->block) * p->width;
+    *skipped = 0;
+    shuffle(p, k, scratch);
+    const int64_t bytes = deflated(p, scratch, out, room);
+    if (!p->either || bytes == 0) return bytes;
+    memset(scratch, 0, (size_t)raw);
+    memcpy(scratch, p->data + k * raw, (size_t)(rest < raw ? rest : raw));
+    const int64_t plain = deflated(p, scratch, scratch + raw, room);
+    if (plain == 0 || plain >= bytes) return plain == 0 ? 0 : bytes;
+    memcpy(out, scratch + raw, (size_t)plain);
+    *skipped = AS_THEY_ARE;
+    return plain;
 }
 
 static void write_blocks(brc_h5 *h5, const char *name, int64_t first, const packing *p, int n_threads)
@@ -63,22 +88,24 @@ static void write_blocks(brc_h5 *h5, const char *name, int64_t first, const pack
     const int threads = n_threads > 0 ? n_threads : omp_get_max_threads();
     unsigned char *scratch = NULL, *out = NULL;
     int64_t bytes[AT_ONCE];
-    uint32_t skipped[AT_ONCE]; /* filters: shuffle is the first, deflate the second */
+    uint32_t skipped[AT_ONCE];
     brc_status status = BRC_OK;
     const hid_t dataset = H5Dopen2(h5->file, name, H5P_DEFAULT);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(h5->context, &scratch, threads * raw, "blocks of a file"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(h5->context, &scratch, threads * (raw + room), "blocks of a file"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(h5->context, &out, at_once * room, "blocks of a file"));
     for (int64_t begin = 0; begin < n; begin += at_once) {
         const int64_t some = n - begin < at_once ? n - begin : at_once;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
         for (int64_t k = 0; k < some; ++k) {
-            skipped[k] = is_worth_packing(p, begin + k) ? 0 : 3;
-            bytes[k] =
-                skipped[k] ? raw : pack(p, begin + k, scratch + raw * omp_get_thread_num(), out + room * k, room);
+            skipped[k] = NOT_PACKED;
+            bytes[k] = raw;
+            if (is_worth_packing(p, begin + k))
+                bytes[k] = pack(p, begin + k, scratch + (raw + room) * omp_get_thread_num(), out + room * k, room,
+                                &skipped[k]);
         }
         for (int64_t k = 0; k < some; ++k) {
             const hsize_t at[2] = {(hsize_t)(first + (begin + k) * p->block), 0};
-            const void *block = skipped[k] ? (const void *)(p->data + (begin + k) * raw) : out + room * k;
+            const void *block = skipped[k] == NOT_PACKED ? (const void *)(p->data + (begin + k) * raw) : out + room * k;
             brc_h5_check(h5,
                          dataset >= 0 && bytes[k] > 0 &&
                              H5Dwrite_chunk(dataset, H5P_DEFAULT, skipped[k], at, (size_t)bytes[k], block) >= 0,
@@ -92,7 +119,7 @@ cleanup:
     brc_memory_free(out);
 }
 
-void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data,
+static void pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data, bool either,
                       int n_threads)
 {
     if (h5->silent || h5->status != BRC_OK || n == 0) return;
@@ -103,9 +130,22 @@ void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, i
     H5Dclose(dataset);
     const int64_t rows = (int64_t)size[0], block = rows < BRC_H5_BLOCK ? rows : BRC_H5_BLOCK,
                   bytes = (int64_t)H5Tget_size(type);
-    const packing p = {.data = data, .rows = n, .block = block, .width = bytes * (int64_t)size[1], .bytes = bytes};
+    const packing p = {
+        .data = data, .rows = n, .block = block, .width = bytes * (int64_t)size[1], .bytes = bytes, .either = either};
     if (first % block == 0 && (n % block == 0 || first + n == rows))
         write_blocks(h5, name, first, &p, n_threads);
     else
         brc_h5_rows(h5, name, type, first, n, data);
+}
+
+void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data,
+                      int n_threads)
+{
+    pack_rows(h5, name, type, first, n, data, false, n_threads);
+}
+
+void brc_h5_pack_rows_either(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data,
+                             int n_threads)
+{
+    pack_rows(h5, name, type, first, n, data, true, n_threads);
 }

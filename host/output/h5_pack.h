@@ -12,5 +12,8 @@
  * HDF5 packs all. The bytes do not depend on the number of threads. */
 void brc_h5_pack_rows(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data,
                       int n_threads);
+/* The same for rows of which many occur again: bytes of a block stay as they stand where that packs smaller. */
+void brc_h5_pack_rows_either(brc_h5 *h5, const char *name, hid_t type, int64_t first, int64_t n, const void *data,
+                             int n_threads);
 
 #endif

@@ -4,6 +4,7 @@
 #include "tessellation.h"
 
 #include "../../host/base/memory.h"
+#include "order.h"
 #include "outline.h"
 
 #include <math.h>
@@ -274,6 +275,9 @@ brc_status brc_tessellation_create(brc_context *context, const brc_domain *domai
     if (domain->element_kind != BRC_ELEMENT_CELL) return BRC_OK;
     BRC_TRY_OR(cleanup, outline_all(context, threads, &t));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &t.turn, domain->n_bonds, "faces of cells"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &t.order, domain->n_elements, "points of cells"));
+    BRC_TRY_OR(cleanup,
+               brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds, threads, t.order));
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int64_t b = 0; b < domain->n_bonds; ++b)
         t.turn[b] = turn_of(&t, b);
@@ -321,6 +325,26 @@ static void unite_all(const brc_tessellation *t, const uint8_t *whole, int32_t *
     }
 }
 
+/* Points along the curve, each numbered by the first of its corners there. parent: as unite_all leaves it. Returns how
+ * many corners are of some face. */
+static int64_t number_points(int32_t *parent, brc_tessellation *t)
+{
+    const brc_domain *d = t->domain;
+    int64_t n_used = 0;
+    t->n_points = 0;
+    for (int64_t v = 0; v < d->vertex_start[d->n_elements]; ++v)
+        t->point[v] = -1;
+    for (int64_t k = 0; k < d->n_elements; ++k)
+        for (int64_t v = d->vertex_start[t->order[k]]; v < d->vertex_start[t->order[k] + 1]; ++v) {
+            if (parent[v] < 0) continue;
+            const int32_t root = root_of(parent, (int32_t)v);
+            if (t->point[root] < 0) t->point[root] = (int32_t)t->n_points++;
+            t->point[v] = t->point[root];
+            ++n_used;
+        }
+    return n_used;
+}
+
 brc_status brc_tessellation_join(brc_context *context, const uint8_t *whole, int n_threads, brc_tessellation *t)
 {
     const brc_domain *d = t->domain;
@@ -336,13 +360,11 @@ brc_status brc_tessellation_join(brc_context *context, const uint8_t *whole, int
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &parent, n_corners, "points of cells"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &room, rooms * threads, "points of cells"));
     unite_all(t, whole, parent);
-    t->n_points = 0;
-    int64_t n_used = 0;
-    for (int32_t v = 0; v < n_corners; ++v) {
-        n_used += parent[v] >= 0;
-        const int32_t root = parent[v] < 0 ? -1 : root_of(parent, v);
-        t->point[v] = root < 0 ? -1 : root < v ? t->point[root] : (int32_t)t->n_points++;
-    }
+    const int64_t n_used = number_points(parent, t);
+    BRC_TRY_OR(cleanup,
+               brc_memory_resize(context, (void **)&t->first, t->n_points, sizeof *t->first, "points of cells"));
+    for (int64_t v = n_corners - 1; v >= 0; --v)
+        if (t->point[v] >= 0) t->first[t->point[v]] = (int32_t)v;
 #pragma omp parallel for schedule(static) num_threads(threads)
     for (int64_t e = 0; e < n; ++e) {
         int32_t *mine = room + rooms * omp_get_thread_num();
@@ -402,8 +424,8 @@ void brc_tessellation_most(const brc_tessellation *t, int64_t *points, int64_t *
 
 void brc_tessellation_free(brc_tessellation *t)
 {
-    void *const block[] = {t->outline_start, t->corner_start, t->corner,     t->turn,
-                           t->point,         t->point_start,  t->face_start, t->loop_start};
+    void *const block[] = {t->outline_start, t->corner_start, t->corner,      t->turn,       t->order,
+                           t->point,         t->first,        t->point_start, t->face_start, t->loop_start};
     for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
         brc_memory_free(block[k]);
     *t = (brc_tessellation){.domain = NULL};

@@ -19,13 +19,16 @@ typedef struct brc_tessellation {
     int64_t *outline_start; /* [n_elements + 1] */
     int64_t *corner_start;  /* [n_outlines + 1] */
     int32_t *corner;        /* counter-clockwise from outside: indices into domain->vertex */
-    int8_t *turn; /* [n_bonds] corner k of the bond's face is corner (turn - k) mod n of the twin's; -1: look for the
-                     nearest */
-    /* after brc_tessellation_join: points, numbered by the first corner that is one; of element e: their number, those
-     * of its faces, and those of the corners of its faces are differences of the starts */
+    int8_t *turn;   /* [n_bonds] corner k of the bond's face is corner (turn - k) mod n of the twin's; -1: look for the
+                       nearest */
+    int32_t *order; /* [n_elements] elements along a curve that keeps neighbours together */
+    /* after brc_tessellation_join: points, numbered along that curve, so that those in one place, where bonds broke,
+     * are near each other in files; of element e: their number, those of its faces, and those of the corners of its
+     * faces are differences of the starts */
     int64_t n_points;
     bool plain; /* no corners of a cell are one point by way of its neighbours: the starts depend on the domain alone */
     int32_t *point;       /* [vertex_start[n_elements]] of each corner; -1: of no face, or nearly another of its cell */
+    int32_t *first;       /* [n_points] the first corner that is the point: where it is */
     int64_t *point_start; /* [n_elements + 1] */
     int64_t *face_start;  /* [n_elements + 1] */
     int64_t *loop_start;  /* [n_elements + 1] */

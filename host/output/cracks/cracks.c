@@ -223,7 +223,7 @@ brc_status brc_cracks_write_frame(brc_context *context, brc_h5 *h5, const brc_as
         n_broken += broken;
     }
     brc_h5_packed(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, n, 0);
-    brc_h5_pack_rows(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, 0, n, damage, n_threads);
+    brc_h5_pack_rows_either(h5, "VTKHDF/CellData/damage", H5T_NATIVE_DOUBLE, 0, n, damage, n_threads);
     brc_h5_packed(h5, "VTKHDF/CellData/fragment", H5T_NATIVE_INT32, n, 0);
     brc_h5_pack_rows(h5, "VTKHDF/CellData/fragment", H5T_NATIVE_INT32, 0, n, fragment, n_threads);
     brc_h5_dataset(h5, "VTKHDF/FieldData/n_fragments", H5T_NATIVE_INT64, 1, 0, &n_fragments);

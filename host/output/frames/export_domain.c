@@ -78,18 +78,15 @@ static brc_status read_ids(const brc_vtu_array *array, int64_t first, int64_t n,
 static brc_status take_points(brc_context *context, const brc_tessellation *cells, cell_points *out)
 {
     const brc_domain *d = cells->domain;
-    int64_t most_points, most_faces, most_corners, n = 0, next = 0;
+    int64_t most_points, most_faces, most_corners, n = 0;
     int32_t *own = NULL;
     brc_tessellation_most(cells, &most_points, &most_faces, &most_corners);
     BRC_TRY(BRC_ALLOCATE(context, &out->place, 3 * cells->n_points, "points of cells"));
     BRC_TRY(BRC_ALLOCATE(context, &out->point, cells->point_start[d->n_elements], "points of cells"));
     BRC_TRY(BRC_ALLOCATE(context, &own, most_points, "points of a cell"));
-    for (int64_t v = 0; v < d->vertex_start[d->n_elements]; ++v) {
-        if (cells->point[v] != next) continue;
+    for (int64_t p = 0; p < cells->n_points; ++p)
         for (int c = 0; c < 3; ++c)
-            out->place[3 * next + c] = (float)d->vertex[3 * v + c];
-        ++next;
-    }
+            out->place[3 * p + c] = (float)d->vertex[3 * (int64_t)cells->first[p] + c];
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int64_t m = brc_tessellation_points(cells, e, own);
         for (int64_t k = 0; k < m; ++k)

@@ -286,7 +286,7 @@ cleanup:
 
 /* ---- places and what never changes ---- */
 
-/* A point is where its first corner is. */
+/* A point is where its first corner is. Where bonds broke several are in one place. */
 static brc_status write_points(const brc_frame_cells *c, brc_h5 *h5)
 {
     float *block = NULL;
@@ -297,20 +297,18 @@ static brc_status write_points(const brc_frame_cells *c, brc_h5 *h5)
     for (int32_t k = 0; k < c->assembly->n; ++k) {
         const brc_domain *d = c->part[k].domain;
         const bool spheres = brc_frame_is_sphere(d);
-        const int64_t corners = spheres ? d->n_elements : d->vertex_start[d->n_elements];
-        int64_t next = 0; /* of this part */
-        for (int64_t v = 0; v < corners; ++v) {
-            if (!spheres && c->part[k].point[v] != next) continue;
-            ++next;
+        const int64_t n_points = spheres ? d->n_elements : c->part[k].n_points;
+        for (int64_t p = 0; p < n_points; ++p) {
+            const double *x = spheres ? d->position + 3 * p : d->vertex + 3 * (int64_t)c->part[k].first[p];
             for (int m = 0; m < 3; ++m)
-                block[3 * n + m] = (float)(spheres ? d->position : d->vertex)[3 * v + m];
+                block[3 * n + m] = (float)x[m];
             if (++n < room) continue;
-            brc_h5_pack_rows(h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, written, n, block, c->n_threads);
+            brc_h5_pack_rows_either(h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, written, n, block, c->n_threads);
             written += n;
             n = 0;
         }
     }
-    brc_h5_pack_rows(h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, written, n, block, c->n_threads);
+    brc_h5_pack_rows_either(h5, "VTKHDF/Points", H5T_NATIVE_FLOAT, written, n, block, c->n_threads);
     brc_memory_free(block);
     return BRC_OK;
 }

@@ -32,14 +32,14 @@ static brc_tessellation joined(brc_context *context, const brc_domain *d, const 
     return t;
 }
 
-/* Place of each point: that of its first corner. The caller frees. */
+/* Place of each point: that of its first corner, whose point it is. The caller frees. */
 static double *places(const brc_tessellation *t)
 {
     double *x = malloc(3 * sizeof(double) * (size_t)t->n_points);
-    int64_t n = 0;
-    for (int64_t v = 0; v < t->domain->vertex_start[t->domain->n_elements]; ++v)
-        if (t->point[v] == n) memcpy(x + 3 * n++, t->domain->vertex + 3 * v, 3 * sizeof(double));
-    assert_int_equal(n, t->n_points);
+    for (int64_t p = 0; p < t->n_points; ++p) {
+        assert_int_equal(t->point[t->first[p]], p);
+        memcpy(x + 3 * p, t->domain->vertex + 3 * (int64_t)t->first[p], 3 * sizeof(double));
+    }
     return x;
 }
 
