@@ -41,6 +41,7 @@ typedef struct watch {
     double asked_first, asked_last; /* by solves */
     int64_t asked;
     double patience_s;
+    int64_t state_bytes;             /* of a checkpoint where a stage was cut that would leave one at its end */
     int64_t device_first;            /* bytes at the first pause */
     brc_device_counts counted_first; /* at the first pause of the stage */
 } watch;
@@ -132,6 +133,28 @@ static brc_device_counts counted(const watch *w)
     return sum;
 }
 
+static brc_status count_numbers(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows,
+                                int32_t columns, void *data)
+{
+    (void)name;
+    (void)data;
+    *(int64_t *)store->self += rows * columns * brc_stored_type_bytes(type);
+    return BRC_OK;
+}
+
+static brc_status cut(watch *w, brc_simulation *simulation, const brc_stage *stage)
+{
+    const brc_assembly *all = &w->setup->assembly;
+    w->now->cut = true;
+    w->state_bytes = 0;
+    if (brc_trial_may_end_early(stage)) {
+        brc_state_store store = {.self = &w->state_bytes, .numbers = count_numbers};
+        BRC_TRY(brc_lockstep_save(all->n, all->part, &store));
+    }
+    brc_simulation_end_stage(simulation, "trial");
+    return BRC_OK;
+}
+
 static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
 {
     watch *w = self;
@@ -158,10 +181,8 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
     w->last = now;
     if (!w->brief && is_open(brc_simulation_scene(simulation), stage) && is_finishing(w->now, now - w->begin))
         return BRC_OK;
-    if (why == BRC_PAUSE_GOING && w->pauses >= LEAST_PAUSES && now - w->begin > watched_s) {
-        w->now->cut = true;
-        brc_simulation_end_stage(simulation, "trial");
-    }
+    if (why == BRC_PAUSE_GOING && w->pauses >= LEAST_PAUSES && now - w->begin > watched_s)
+        return cut(w, simulation, stage);
     return BRC_OK;
 }
 
@@ -290,6 +311,7 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
         const brc_checkpoint_report report = brc_checkpoints_report(checkpoints);
         out->n_checkpoints = report.n_written;
         out->checkpoint_bytes = report.bytes;
+        if (report.n_written == 0) out->disk_bytes += w->state_bytes;
     }
     out->n_measures = brc_recorder_measure_count(recorder);
     for (int32_t k = 0; k < out->n_measures; ++k)

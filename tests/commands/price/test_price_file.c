@@ -32,6 +32,30 @@ static double number_of(const char *text, const char *from, const char *key)
     return test_number_behind(strstr(text, from), key);
 }
 
+/* A stage that a condition will end, long after the trial is cut, leaves a checkpoint: the folder holds little else. */
+static void the_checkpoint_of_a_stage_that_ends_early_is_counted(void **state)
+{
+    (void)state;
+    static const char swinging[] =
+        "version: 1\nmaterials: {glass: {E: 72 GPa, nu: 0.23, density: 2500 kg/m^3}}\n"
+        "bodies: [{name: bar, shape: {box: {size: [20 mm, 10 mm, 10 mm]}}, fill: {noisy_grid: {elements: 2000}}, "
+        "material: glass}]\n"
+        "stages: [{name: pull, solver: {dynamic: {duration: 20 ms, stop_after_peak: {sensor: force, below: 50 %}}}, "
+        "loads: [{face_displacement: {set: x-, x: 0}}, "
+        "{traction: {set: x+, x: 1 MPa, table: [[0, 0], [0.4 ms, 1], [0.42 ms, 0]]}}]}]\n"
+        "sensors: {force: {energy: elastic}}\n"
+        "output: {frames: none, picture: false, history_every: 10000}\n";
+    test_remove_folder(NULL);
+    assert_int_equal(test_make_folder(swinging), 0);
+    call("check", "--brief");
+    const double told = number_of(test_text_of("run/price.json"), "{", "\"disk_bytes\": ");
+    call("run", "");
+    const char *summary = test_text_of("run/summary.json");
+    const double kept = number_of(summary, "\"checkpoints\"", "\"bytes\": ");
+    assert_non_null(strstr(summary, "stop_after_peak"));
+    if (!(kept > 0 && told > 0.9 * kept && told < 1.5 * kept + 1e5)) fail_msg("%g bytes told, %g kept", told, kept);
+}
+
 /* Numbers of the price are those of the summary, written with nine digits; what the run took stands beside them: of a
  * static stage too, of which the run itself predicts nothing. */
 static void a_run_is_compared_with_the_price_that_check_told(void **state)
@@ -114,6 +138,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_run_is_compared_with_the_price_that_check_told, begin, test_remove_folder),
+        cmocka_unit_test_setup_teardown(the_checkpoint_of_a_stage_that_ends_early_is_counted, begin,
+                                        test_remove_folder),
         cmocka_unit_test_setup_teardown(the_price_of_another_scene_is_not_compared, begin, test_remove_folder),
         cmocka_unit_test_setup_teardown(a_price_with_a_number_that_is_none_is_not_compared, begin, test_remove_folder),
         cmocka_unit_test_setup_teardown(a_price_that_cannot_be_written_is_refused_before_the_trial, begin,
