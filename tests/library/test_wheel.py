@@ -1,5 +1,5 @@
 """The wheel of this build in a virtual environment that has nothing else of breccia: a run, a table of pandas, a cut drawn by pyvista, views that share memory; types by
-mypy --strict; and VTK's newest release, which comes with pyvista, on frames of examples (tests/commands/test_frames.py)."""
+mypy --strict; and VTK's newest release, which comes with pyvista, on frames of every example (tests/commands/test_frames.py)."""
 import glob
 import os
 import subprocess
@@ -51,5 +51,5 @@ own = {key: value for key, value in os.environ.items() if key not in ("BRECCIA_L
 tests = os.path.join(SOURCE, "python", "tests")
 failed = subprocess.run([PYTHON, "-B", "-m", "pytest", "-q", "-p", "no:cacheprovider", *(os.path.join(tests, name) for name in TESTS)], env=own, cwd=HOLDER).returncode
 failed |= subprocess.run([PYTHON, "-m", "mypy", "--strict", "--cache-dir", os.devnull, os.path.join(SOURCE, "python", "src")], cwd=HOLDER).returncode
-failed |= subprocess.run([PYTHON, "-B", os.path.join(SOURCE, "tests", "commands", "test_frames.py")], cwd=HOLDER).returncode
+failed |= subprocess.run([PYTHON, "-B", os.path.join(SOURCE, "tests", "commands", "test_frames.py"), "--all"], cwd=HOLDER).returncode
 sys.exit(1 if failed else 0)

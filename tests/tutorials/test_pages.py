@@ -16,7 +16,7 @@ SMALL = {
     "compression": ["bodies.0.fill.packing.elements=500"],
     "fragmentation": ["bodies.0.fill.packing.elements=500"],
     "impact": ["bodies.0.fill.noisy_grid.cells=[12, 12, 2]"],
-    "polycrystal": ["bodies.0.fill.packing.elements=1000", "bodies.0.grains.number=8"],
+    "polycrystal": ["bodies.0.fill.noisy_grid.elements=1000", "bodies.0.grains.number=8"],
     "tension": ["bodies.0.fill.noisy_grid.elements=500"],
     "weakest-link": [],
 }
