@@ -4,7 +4,6 @@
 #define BRC_BENCH_CARD_H
 
 #include "../host/device/device.h"
-#include "../host/scene/model_kinds.h"
 
 /* Records that passes gather from neighbours. */
 typedef enum brc_card_record {
@@ -16,7 +15,7 @@ typedef enum brc_card_record {
 } brc_card_record;
 
 typedef struct brc_card_pass {
-    brc_model_kind model;
+    const char *model; /* as in scenes */
     const char *name;
     int row_ints, row_coeffs;     /* a half-edge: int, coeff */
     int again_ints, again_coeffs; /* of these, read by a second loop */
@@ -37,7 +36,8 @@ extern const brc_card brc_card_h200;
 
 /* Bytes and operations of a half-edge in a pass. */
 typedef struct brc_card_traffic {
-    double memory;     /* rows once, elements at their own rows: what memory gives at least */
+    double least;      /* rows once, elements at their own rows, without padding */
+    double memory;     /* the same with padding: what memory gives */
     double cache;      /* rows as often as they are read, and what gathers fetch: what L2 gives */
     double operations; /* in doubles or singles */
 } brc_card_traffic;

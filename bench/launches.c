@@ -33,15 +33,14 @@ static double now(const brc_launches_request *r)
     return r->n_threads == 1 ? brc_processor_s() : brc_clock_s();
 }
 
-/* The constants of an open device but for pass_bandwidth, which is that of a model: infinite. */
+/* The constants of an open device but for its bandwidths, which are those of a model and a body: infinite. */
 static brc_status measure_constants(const brc_launches_request *r, brc_device *device, brc_device_price *out)
 {
     brc_status status = BRC_OK;
     brc_buffer *x = NULL, *y = NULL;
     brc_kernel *copy = NULL;
     double number[8];
-    out->pass_bandwidth = INFINITY;
-    BRC_TRY(brc_device_copy_bandwidth(device, r->bandwidth_bytes, &out->copy_bandwidth));
+    out->copy_bandwidth = out->pass_bandwidth = INFINITY;
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &x, sizeof number, "bench numbers"));
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &y, sizeof number, "bench numbers"));
     BRC_TRY_OR(cleanup, brc_kernel_find(device, "vector_copy", &copy));
@@ -158,11 +157,14 @@ static brc_status measure_price(brc_context *context, const brc_launches_request
 }
 
 static brc_status measure(brc_context *context, const brc_launches_request *r, brc_device *device,
-                          const brc_device_price *price, const brc_domain *domain, brc_model_kind model,
-                          const effect *e, brc_rows *rows)
+                          brc_device_price *price, const brc_domain *domain, brc_model_kind model, const effect *e,
+                          brc_rows *rows)
 {
     step_work step;
     BRC_TRY(steps_of(context, r, device, domain, model, e, &step));
+    const int64_t moved = (int64_t)step.floor_bytes / 2; /* a copy reads and writes */
+    BRC_TRY(brc_device_copy_bandwidth(device, moved < r->bandwidth_bytes ? moved : r->bandwidth_bytes,
+                                      r->n_threads == 1 ? brc_processor_s : brc_clock_s, &price->copy_bandwidth));
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "launches");
     brc_rows_text(rows, "quantity", e->name);

@@ -1,9 +1,9 @@
 /* `breccia bench launches`: what a step asks of a device, counted: launches, times the host waits, bytes between host
  * and device; and what that is worth by a model of the device, seconds = launches x launch + waits x wait + least bytes
  * / bandwidth, whose constants are measured here, and for a card given in docs/notebook/devices.md. The bandwidth is
- * that of copying or, where arithmetic takes longer, as on a CPU, what the passes of a small elastic body reach in
- * cache. Noisy-grid cubes and packings as of `bench throughput`: elastic, with fracture and contact where nothing
- * breaks and nothing is near. */
+ * that of a copy of as many bytes as the step moves or, where arithmetic takes longer, as on a CPU, what the passes of
+ * a small elastic body reach in cache. One thread: processor seconds. Noisy-grid cubes and packings as of `bench
+ * throughput`: elastic, with fracture and contact where nothing breaks and nothing is near. */
 #ifndef BRC_BENCH_LAUNCHES_H
 #define BRC_BENCH_LAUNCHES_H
 
@@ -26,7 +26,7 @@ typedef struct brc_launches_request {
     brc_precision precision;
     int n_threads;
     int64_t n_steps;         /* that are counted */
-    int64_t bandwidth_bytes; /* array of the copy that gives the bandwidth [byte] */
+    int64_t bandwidth_bytes; /* array of the copy that gives the bandwidth, at most [byte] */
     /* Called after each row; a status other than BRC_OK stops. */
     brc_status (*row)(void *self, const brc_rows *rows);
     void *self;

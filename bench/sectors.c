@@ -147,9 +147,10 @@ static brc_card_traffic traffic_of(const sample *c, const brc_card_pass *p, int 
                                    double grouped[GROUPS])
 {
     const double half_edges = (double)c->domain->n_half_edges, padding = stored_half_edges(c) / half_edges;
-    const double rows = padding * (4 * p->row_ints + coeff * p->row_coeffs),
+    const double row = 4 * p->row_ints + coeff * p->row_coeffs, element = 8 * p->states + coeff * p->coeffs,
+                 least = row + element * (double)c->domain->n_elements / half_edges, rows = padding * row,
                  again = padding * (4 * p->again_ints + coeff * p->again_coeffs),
-                 own = (double)c->layout->n_rows / half_edges * (8 * p->states + coeff * p->coeffs);
+                 own = (double)c->layout->n_rows / half_edges * element;
     *wanted = *single = 0;
     memset(grouped, 0, GROUPS * sizeof *grouped);
     for (int kind = 0; kind < BRC_CARD_RECORDS; ++kind) {
@@ -163,7 +164,7 @@ static brc_card_traffic traffic_of(const sample *c, const brc_card_pass *p, int 
     double fetched = 0;
     for (int g = 0; g < GROUPS; ++g)
         if (group_sizes[g] == BRC_GPU_GROUP) fetched = grouped[g];
-    return (brc_card_traffic){rows + own, rows + again + own + fetched, padding * p->operations};
+    return (brc_card_traffic){least, rows + own, rows + again + own + fetched, padding * p->operations};
 }
 
 /* A pass of a model, and what it is to reach on a card. */
@@ -175,10 +176,11 @@ static brc_status add_pass(const brc_sectors_request *r, const sample *c, const 
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "passes");
     brc_rows_text(rows, "quantity", p->name);
-    brc_rows_text(rows, "model", brc_model_name(p->model));
+    brc_rows_text(rows, "model", p->model);
     brc_rows_text(rows, "precision", brc_precision_name(precision));
     add_bytes(rows, wanted, single, grouped);
-    brc_rows_number(rows, "floor_bytes_per_bond", 2 * t.memory);
+    brc_rows_number(rows, "floor_bytes_per_bond", 2 * t.least);
+    brc_rows_number(rows, "memory_bytes_per_bond", 2 * t.memory);
     brc_rows_number(rows, "cache_bytes_per_bond", 2 * t.cache);
     brc_rows_number(rows, "operations_per_bond", 2 * t.operations);
     brc_rows_number(rows, "ours", 2 * t.cache);
@@ -192,14 +194,16 @@ static brc_status add_step(const brc_sectors_request *r, const sample *c, brc_mo
 {
     const brc_card *card = &brc_card_h200;
     const double half_edges = elements * (double)c->domain->n_half_edges / (double)c->domain->n_elements;
-    double seconds = 0, memory = 0, cache = 0, operations = 0, launches = 0;
+    brc_card_traffic sum = {0};
+    double seconds = 0, launches = 0;
     for (int k = 0; k < brc_card_n_passes; ++k) {
         double wanted, single, grouped[GROUPS];
-        if (brc_card_passes[k].model != model) continue;
+        if (strcmp(brc_card_passes[k].model, brc_model_name(model)) != 0) continue;
         const brc_card_traffic t =
             traffic_of(c, &brc_card_passes[k], precision == BRC_DOUBLE ? 8 : 4, &wanted, &single, grouped);
         seconds += brc_card_seconds(card, &t, precision, half_edges);
-        memory += t.memory, cache += t.cache, operations += t.operations, launches += 1;
+        sum.least += t.least, sum.memory += t.memory, sum.cache += t.cache, sum.operations += t.operations;
+        launches += 1;
     }
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "card");
@@ -209,12 +213,13 @@ static brc_status add_step(const brc_sectors_request *r, const sample *c, brc_mo
     brc_rows_number(rows, "elements", elements);
     brc_rows_number(rows, "launches_per_step", launches);
     brc_rows_number(rows, "launch_s", card->launch_s);
-    brc_rows_number(rows, "floor_bytes_per_bond", 2 * memory);
-    brc_rows_number(rows, "cache_bytes_per_bond", 2 * cache);
-    brc_rows_number(rows, "operations_per_bond", 2 * operations);
+    brc_rows_number(rows, "floor_bytes_per_bond", 2 * sum.least);
+    brc_rows_number(rows, "memory_bytes_per_bond", 2 * sum.memory);
+    brc_rows_number(rows, "cache_bytes_per_bond", 2 * sum.cache);
+    brc_rows_number(rows, "operations_per_bond", 2 * sum.operations);
     brc_rows_number(rows, "seconds_by_model", seconds);
     brc_rows_number(rows, "bond_updates_per_s", 0.5 * half_edges / seconds);
-    brc_rows_number(rows, "of_copy_bandwidth", half_edges * memory / seconds / card->memory);
+    brc_rows_number(rows, "of_copy_bandwidth", half_edges * sum.least / seconds / card->memory);
     brc_rows_number(rows, "ours", 0.5 * half_edges / seconds);
     return finish_row(r, c, rows);
 }
@@ -225,7 +230,8 @@ static brc_status add_model(const brc_sectors_request *r, const sample *c, brc_m
     static const double sizes[] = {1e5, 1e6, 4e6, 3e7};
     for (size_t p = 0; p < sizeof precisions / sizeof *precisions; ++p) {
         for (int k = 0; k < brc_card_n_passes; ++k)
-            if (brc_card_passes[k].model == model) BRC_TRY(add_pass(r, c, &brc_card_passes[k], precisions[p], rows));
+            if (strcmp(brc_card_passes[k].model, brc_model_name(model)) == 0)
+                BRC_TRY(add_pass(r, c, &brc_card_passes[k], precisions[p], rows));
         for (size_t s = 0; s < sizeof sizes / sizeof *sizes; ++s)
             BRC_TRY(add_step(r, c, model, precisions[p], sizes[s], rows));
     }

@@ -92,7 +92,7 @@ static brc_status measure(brc_context *context, const brc_throughput_request *re
     brc_rows_text(rows, "device_name", info->name);
     brc_rows_text(rows, "driver", info->driver);
     brc_rows_integer(rows, "lanes", brc_device_lanes(device));
-    BRC_TRY_OR(cleanup, brc_device_copy_bandwidth(device, request->bandwidth_bytes, &bandwidth));
+    BRC_TRY_OR(cleanup, brc_device_copy_bandwidth(device, request->bandwidth_bytes, brc_clock_s, &bandwidth));
     BRC_TRY_OR(cleanup, brc_simulation_create(context, &c.scene, domain, device, &simulation));
     const int64_t device_bytes = brc_device_bytes(device);
     BRC_TRY_OR(cleanup, sample_steps(simulation, request->sample_s, samples, &n_steps));

@@ -326,7 +326,7 @@ static brc_status print_sectors(void *self, const brc_rows *rows)
     if (card || strcmp(brc_row_text(row, "case"), "passes") == 0) {
         printf("%-14s %-22s %-7s %8.4g cells: %6.0f bytes a bond, %6.0f from L2, %5.0f operations",
                brc_row_text(row, "model"), brc_row_text(row, "quantity"), brc_row_text(row, "precision"),
-               brc_row_number(row, "elements"), brc_row_number(row, "floor_bytes_per_bond"),
+               brc_row_number(row, "elements"), brc_row_number(row, "memory_bytes_per_bond"),
                brc_row_number(row, "cache_bytes_per_bond"), brc_row_number(row, "operations_per_bond"));
         if (card)
             printf("; %8.3g s a step, %5.2f G bonds/s, %3.0f %% of copy", brc_row_number(row, "seconds_by_model"),

@@ -1,11 +1,10 @@
 #include "device_bandwidth.h"
 #include "device_internal.h"
-#include "../base/log.h"
 
 /* The best of this many: other programs only ever slow a run down. */
 enum { RUNS = 7 };
 
-brc_status brc_device_copy_bandwidth(brc_device *device, int64_t bytes, double *bytes_per_s)
+brc_status brc_device_copy_bandwidth(brc_device *device, int64_t bytes, double (*clock)(void), double *bytes_per_s)
 {
     brc_status status = BRC_OK;
     brc_buffer *from = NULL, *to = NULL;
@@ -20,10 +19,10 @@ brc_status brc_device_copy_bandwidth(brc_device *device, int64_t bytes, double *
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &to, bytes, "the copy of the bandwidth measurement"));
     for (int run = 0; run < RUNS; ++run) {
         BRC_TRY_OR(cleanup, brc_device_wait(device));
-        const double start = brc_clock_s();
+        const double start = clock();
         BRC_TRY_OR(cleanup, BRC_LAUNCH(copy, n, BRC_INT(n), BRC_BUF(from), BRC_BUF(to)));
         BRC_TRY_OR(cleanup, brc_device_wait(device));
-        const double seconds = brc_clock_s() - start;
+        const double seconds = clock() - start;
         const double rate = 2.0 * (double)(n * brc_precision_state_bytes(device->precision)) / seconds;
         if (seconds > 0 && rate > *bytes_per_s) *bytes_per_s = rate;
     }

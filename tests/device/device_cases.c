@@ -5,6 +5,7 @@
 #include <cmocka.h>
 #include "device_cases.h"
 #include "../skip.h"
+#include "../../host/base/log.h"
 #include "../../host/device/device_bandwidth.h"
 #include "kernel_list.h"
 #include <stdio.h>
@@ -445,10 +446,10 @@ static void the_copy_bandwidth_is_measured(void **unused)
     (void)unused;
     bench b = bench_open(BRC_SINGLE, false, 0);
     double rate = 0;
-    DONE(b, brc_device_copy_bandwidth(b.device, 8 << 20, &rate));
+    DONE(b, brc_device_copy_bandwidth(b.device, 8 << 20, brc_clock_s, &rate));
     assert_true(rate > 1e7 && rate < 1e14); /* bytes per second of anything that computes: a wrong unit would show */
     assert_int_equal(brc_device_bytes(b.device), 0);
-    assert_int_equal(brc_device_copy_bandwidth(b.device, 0, &rate), BRC_BAD_INPUT);
+    assert_int_equal(brc_device_copy_bandwidth(b.device, 0, brc_clock_s, &rate), BRC_BAD_INPUT);
     bench_close(&b);
 }
 
