@@ -150,7 +150,7 @@ struct brc_simulation {
     int32_t *material_of_element; /* [n_elements] index into scene.materials */
 
     /* connectivity and geometry (geometry.c) */
-    brc_buffer *row_start, *neighbour, *boundary;
+    brc_buffer *row_start, *neighbour, *asked_ahead, *boundary;
     brc_buffer *area, *offset, *ratio; /* dlsm: s, d, q; published: branch (in offset), S (in area) */
     brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;
