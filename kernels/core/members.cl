@@ -108,9 +108,13 @@ LAW void members_records_ahead9(members m, OWN(coeff) p)
 {
     if (!m.listed) records_ahead9(p, m.first);
 }
-LAW void members_gathers_ahead9(members m, GATHER(coeff) p, OWN(int) neighbour, int slot)
+LAW void members_later(members m, GATHER(coeff) p, int width, OWN(int) ahead)
 {
-    if (!m.listed) gathers_ahead9(p, neighbour, slot, m.end, m.lane0);
+    if (!m.listed) records_later(p, width, ahead, m.first);
+}
+LAW void members_states_later(members m, GATHER(state) p, int width, OWN(int) ahead)
+{
+    if (!m.listed) states_later(p, width, ahead, m.first);
 }
 
 /* ---- of the elements ---- */

@@ -222,13 +222,17 @@ LAW int brc_lane_any_short(lane a, lane b)
 #define SCATTER(type) GLOBAL type *restrict
 
 /* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at
- * every page of 4 KiB (measured in docs/notebook/performance.md). GPUs hide the wait by their many work-items. */
+ * every page of 4 KiB (measured in bench/results/notes/performance.md). GPUs hide the wait by their many work-items.
+ * What is used soon goes into every cache; what is used later into the second: the first has few places that wait. */
 #if !defined(__OPENCL_VERSION__) && W > 1
-#define ROWS_AHEAD 12
+#define ROWS_AHEAD (256 / W)
 #define GATHERS_AHEAD 2
+#define RECORDS_AHEAD 512 /* rows; the host plans `ahead` with it (host/solver/core/layout.h) */
 #define PREFETCH(p, at) __builtin_prefetch((p) + (at), 0, 3)
+#define PREFETCH_LATER(p, at) __builtin_prefetch((p) + (at), 0, 2)
 #else
 #define PREFETCH(p, at) ((void)0)
+#define PREFETCH_LATER(p, at) ((void)0)
 #endif
 
 /* Registers bound a GPU: loops over bonds that hold much are taken apart there, and what a loop only reads or only what

@@ -38,8 +38,49 @@ LAW lane_state gather_state_number(GLOBAL const state *restrict p, lane_int row,
 #define LANE_ZIP_HIGH(a, b) LANE_SHUFFLE(a, b, 1, 9, 3, 11, 5, 13, 7, 15)
 #define LANE_PAIRS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 8, 9, 4, 5, 12, 13)
 #define LANE_PAIRS_HIGH(a, b) LANE_SHUFFLE(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
+#define LANE_PAIRS_EVEN(a, b) LANE_SHUFFLE(a, b, 0, 1, 4, 5, 8, 9, 12, 13)
+#define LANE_PAIRS_ODD(a, b) LANE_SHUFFLE(a, b, 2, 3, 6, 7, 10, 11, 14, 15)
 #define LANE_QUADS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
 #define LANE_QUADS_HIGH(a, b) LANE_SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
+#endif
+#if STATE_SHUFFLES == 8
+#ifdef __OPENCL_VERSION__
+typedef BRC_JOIN(STATE_NAME, 4) state_quad;
+LAW state_quad state_quad_load(GLOBAL const state *restrict p, brc_size at) { return vload4(0, p + at); }
+#else
+typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
+typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
+LAW state_quad state_quad_load(const state *restrict p, brc_size at) { return *(const quad_anywhere *)(p + at); }
+#endif
+/* p[a .. a + 3], p[b .. b + 3] */
+LAW lane_state state_load_pair(GLOBAL const state *restrict p, brc_size a, brc_size b)
+{
+    const state_quad low = state_quad_load(p, a), high = state_quad_load(p, b);
+    return LANE_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+/* Four numbers of each lane: two lanes' records in one vector, then transposed. Vectors of doubles have one cheap
+ * shuffle that chooses pairs of two vectors; those of floats another, within each half. */
+typedef struct {
+    lane_state c0, c1, c2, c3;
+} state_columns;
+LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int row, brc_size n)
+{
+#define PAIR(k, l) state_load_pair(p, (brc_size)LANE_ITEM(row, k) * n, (brc_size)LANE_ITEM(row, l) * n)
+#if BRC_PRECISION < 2
+    const lane_state r02 = PAIR(0, 2), r13 = PAIR(1, 3), r46 = PAIR(4, 6), r57 = PAIR(5, 7);
+    const lane_state a0 = LANE_ZIP_LOW(r02, r13), a1 = LANE_ZIP_HIGH(r02, r13);
+    const lane_state a2 = LANE_ZIP_LOW(r46, r57), a3 = LANE_ZIP_HIGH(r46, r57);
+    return (state_columns){LANE_PAIRS_EVEN(a0, a2), LANE_PAIRS_EVEN(a1, a3), LANE_PAIRS_ODD(a0, a2),
+                           LANE_PAIRS_ODD(a1, a3)};
+#else
+    const lane_state r04 = PAIR(0, 4), r15 = PAIR(1, 5), r26 = PAIR(2, 6), r37 = PAIR(3, 7);
+    const lane_state a0 = LANE_ZIP_LOW(r04, r15), a1 = LANE_ZIP_HIGH(r04, r15);
+    const lane_state a2 = LANE_ZIP_LOW(r26, r37), a3 = LANE_ZIP_HIGH(r26, r37);
+    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2),
+                           LANE_PAIRS_HIGH(a1, a3)};
+#endif
+#undef PAIR
+}
 #endif
 #if LANE_SHUFFLES == 8
 typedef struct {
@@ -63,10 +104,25 @@ LAW lane_columns lane_transpose(lane_columns r)
  * room (LANE_SPARE). */
 LAW lane_columns lane_gather_columns(GLOBAL const coeff *restrict p, lane_int row, brc_size n)
 {
+#if BRC_PRECISION == 0
+    /* As twice state_gather_columns, in the order that leaves the compiler the most registers. */
+#define PAIR(k, l, c) state_load_pair(p, (brc_size)LANE_ITEM(row, k) * n + (c), (brc_size)LANE_ITEM(row, l) * n + (c))
+    const lane r02 = PAIR(0, 2, 0), r13 = PAIR(1, 3, 0), r46 = PAIR(4, 6, 0), r57 = PAIR(5, 7, 0);
+    const lane t02 = PAIR(0, 2, 4), t13 = PAIR(1, 3, 4), t46 = PAIR(4, 6, 4), t57 = PAIR(5, 7, 4);
+#undef PAIR
+    const lane a0 = LANE_ZIP_LOW(r02, r13), a1 = LANE_ZIP_HIGH(r02, r13), a2 = LANE_ZIP_LOW(r46, r57),
+               a3 = LANE_ZIP_HIGH(r46, r57);
+    const lane b0 = LANE_ZIP_LOW(t02, t13), b1 = LANE_ZIP_HIGH(t02, t13), b2 = LANE_ZIP_LOW(t46, t57),
+               b3 = LANE_ZIP_HIGH(t46, t57);
+    return (lane_columns){LANE_PAIRS_EVEN(a0, a2), LANE_PAIRS_EVEN(a1, a3), LANE_PAIRS_ODD(a0, a2),
+                          LANE_PAIRS_ODD(a1, a3),  LANE_PAIRS_EVEN(b0, b2), LANE_PAIRS_EVEN(b1, b3),
+                          LANE_PAIRS_ODD(b0, b2),  LANE_PAIRS_ODD(b1, b3)};
+#else
 #define RECORD(l) lane_load(p, (brc_size)LANE_ITEM(row, l) * n)
     return lane_transpose(
         (lane_columns){RECORD(0), RECORD(1), RECORD(2), RECORD(3), RECORD(4), RECORD(5), RECORD(6), RECORD(7)});
 #undef RECORD
+#endif
 }
 #elif LANE_SHUFFLES == 4
 /* Two numbers of the records of four lanes: lanes 0 and 2, 1 and 3 in one vector, then zipped. */
@@ -89,37 +145,6 @@ LAW void lane_store_two(coeff *restrict q, brc_size n, lane a, lane b)
     *(pair_anywhere *)(q + n) = LANE_SHUFFLE(r13, r13, 0, 1);
     *(pair_anywhere *)(q + 2 * n) = LANE_SHUFFLE(r02, r02, 2, 3);
     *(pair_anywhere *)(q + 3 * n) = LANE_SHUFFLE(r13, r13, 2, 3);
-}
-#endif
-
-#if STATE_SHUFFLES == 8
-#ifdef __OPENCL_VERSION__
-typedef BRC_JOIN(STATE_NAME, 4) state_quad;
-LAW state_quad state_quad_load(GLOBAL const state *restrict p, brc_size at) { return vload4(0, p + at); }
-#else
-typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
-typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
-LAW state_quad state_quad_load(const state *restrict p, brc_size at) { return *(const quad_anywhere *)(p + at); }
-#endif
-/* p[a .. a + 3], p[b .. b + 3] */
-LAW lane_state state_load_pair(GLOBAL const state *restrict p, brc_size a, brc_size b)
-{
-    const state_quad low = state_quad_load(p, a), high = state_quad_load(p, b);
-    return LANE_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-}
-/* Four numbers of the state of each lane: two lanes' records in one vector, then transposed. */
-typedef struct {
-    lane_state c0, c1, c2, c3;
-} state_columns;
-LAW state_columns state_gather_columns(GLOBAL const state *restrict p, lane_int row, brc_size n)
-{
-#define PAIR(k, l) state_load_pair(p, (brc_size)LANE_ITEM(row, k) * n, (brc_size)LANE_ITEM(row, l) * n)
-    const lane_state r04 = PAIR(0, 4), r15 = PAIR(1, 5), r26 = PAIR(2, 6), r37 = PAIR(3, 7);
-#undef PAIR
-    const lane_state a0 = LANE_ZIP_LOW(r04, r15), a1 = LANE_ZIP_HIGH(r04, r15);
-    const lane_state a2 = LANE_ZIP_LOW(r26, r37), a3 = LANE_ZIP_HIGH(r26, r37);
-    return (state_columns){LANE_PAIRS_LOW(a0, a2), LANE_PAIRS_LOW(a1, a3), LANE_PAIRS_HIGH(a0, a2),
-                           LANE_PAIRS_HIGH(a1, a3)};
 }
 #endif
 

@@ -225,9 +225,9 @@ LAW void rows_ahead3(GLOBAL const coeff *restrict p, int slot)
 {
 #ifdef ROWS_AHEAD
     const brc_size at = (brc_size)(slot + ROWS_AHEAD) * 3 * C;
-    PREFETCH(p, at);
-    PREFETCH(p, at + C);
-    PREFETCH(p, at + 2 * C);
+    PREFETCH_LATER(p, at);
+    PREFETCH_LATER(p, at + C);
+    PREFETCH_LATER(p, at + 2 * C);
 #else
     (void)p, (void)slot;
 #endif
@@ -235,7 +235,7 @@ LAW void rows_ahead3(GLOBAL const coeff *restrict p, int slot)
 LAW void rows_ahead1(GLOBAL const coeff *restrict p, int slot)
 {
 #ifdef ROWS_AHEAD
-    PREFETCH(p, (brc_size)(slot + ROWS_AHEAD) * C);
+    PREFETCH_LATER(p, (brc_size)(slot + ROWS_AHEAD) * C);
 #else
     (void)p, (void)slot;
 #endif
@@ -251,23 +251,34 @@ LAW void records_ahead9(GLOBAL const coeff *restrict p, int first)
 #endif
 }
 
-/* Prefetch of the [element][9] records that the row entry GATHERS_AHEAD slots further on will gather. */
-LAW void gathers_ahead9(GLOBAL const coeff *restrict p, GLOBAL const int *restrict neighbour, int slot, int last,
-                        int first_lane)
-{
+/* Prefetch of [element][width] records that a group of rows will gather: those RECORDS_AHEAD rows further on, which
+ * most of the next groups gather from, and those that lie elsewhere and that no group has gathered lately: one for each
+ * of the W rows from first on, chosen by the host (ahead [n], host/solver/core/layout.h). */
 #ifdef ROWS_AHEAD
-    const int next = slot + GATHERS_AHEAD < last ? slot + GATHERS_AHEAD : slot;
-    const int *row = neighbour + (brc_size)next * C + (brc_size)first_lane;
-    for (int l = 0; l < W; ++l) {
-        PREFETCH(p, (brc_size)row[l] * 9);
-        PREFETCH(p, (brc_size)row[l] * 9 + 8);
-    }
+#define RECORDS_LATER(p, width, ahead, first)                                                                          \
+    do {                                                                                                               \
+        for (int k = 0; k < (width); ++k)                                                                              \
+            PREFETCH_LATER(p, (brc_size)((first) + RECORDS_AHEAD) * (brc_size)(width) + (brc_size)(k * W));            \
+        for (int l = 0; l < W; ++l) {                                                                                  \
+            const brc_size at = (brc_size)(ahead)[(first) + l] * (brc_size)(width);                                    \
+            PREFETCH_LATER(p, at);                                                                                     \
+            PREFETCH_LATER(p, at + (brc_size)((width)-1));                                                             \
+        }                                                                                                              \
+    } while (0)
 #else
-    (void)p, (void)neighbour, (void)slot, (void)last, (void)first_lane;
+#define RECORDS_LATER(p, width, ahead, first) ((void)(p), (void)(width), (void)(ahead), (void)(first))
 #endif
+LAW void records_later(GLOBAL const coeff *restrict p, int width, GLOBAL const int *restrict ahead, int first)
+{
+    RECORDS_LATER(p, width, ahead, first);
+}
+LAW void states_later(GLOBAL const state *restrict p, int width, GLOBAL const int *restrict ahead, int first)
+{
+    RECORDS_LATER(p, width, ahead, first);
 }
 
-/* The same for short records of the state, [element][width]. */
+/* Prefetch of short records of the state, [element][width], that the row entry GATHERS_AHEAD slots further on will
+ * gather. */
 LAW void gathers_ahead(GLOBAL const state *restrict p, int width, GLOBAL const int *restrict neighbour, int slot,
                        int last, int first_lane)
 {

@@ -80,12 +80,10 @@ static brc_status energies(brc_simulation *s, double *elastic, double *stabilisa
     return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
 }
 
-static double floor_bytes(const brc_simulation *s)
+static int step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
-    const brc_precision precision = brc_device_get_precision(s->device);
-    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
-    /* neighbour, branch, stiffness; u read, f written; motion: f, v, u, m read, v, u written */
-    return (double)s->domain->n_half_edges * (4 + 4 * coeff) + (double)s->domain->n_elements * 22 * state;
+    out[0] = (brc_step_pass){((const springs *)s->of_model)->force, NULL};
+    return 1;
 }
 
 /* Of this example springs have no stress. */
@@ -120,7 +118,7 @@ const brc_bond_model brc_spring = {.element = BRC_ELEMENT_CELL,
                                    .make_passes = make_passes,
                                    .evaluate = evaluate,
                                    .energies = energies,
-                                   .floor_bytes = floor_bytes,
+                                   .step_passes = step_passes,
                                    .strain_stress = strain_stress,
                                    .face_displacement = face_displacement,
                                    .conserves = true,

@@ -1,5 +1,5 @@
-"""Modules of host/solver: core/, run/ and utilities/ know models and effects by their descriptors alone; models and effects include nothing of
-run/ and no kernel file; a header `*_internal.h` is for its folder, and for those that its folder is the inside of."""
+"""Modules of host/solver: core/, run/ and utilities/ know models and effects by their descriptors alone and name no kernel of one; models and
+effects include nothing of run/."""
 import os
 import re
 import repository

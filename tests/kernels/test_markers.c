@@ -14,50 +14,32 @@
 enum { SLICES = 4, SLOTS = 3, MOST_ARRAYS = 24, NAME = 40, SPARE = 16, MOST_NUMBERS = 9 * 16 * SLICES * SLOTS + SPARE };
 
 /* How the rows of an array are stored. */
-typedef enum where { STARTS, LISTED, NEIGHBOUR, BLOCK_OF, ELEMENT, SLOT, SLICE } where;
+typedef enum where { STARTS, LISTED, NEIGHBOUR, ROW, BLOCK_OF, ELEMENT, SLOT, SLICE } where;
 typedef struct storage {
     const char *name;
     where where;
     int width;
 } storage;
 static const storage known[] = {
-    {"row_start", STARTS, 1},
-    {"list", LISTED, 1},
-    {"neighbour", NEIGHBOUR, 1},
-    {"boundary", BLOCK_OF, 1},
-    {"displacement", ELEMENT, 3},
-    {"orientation", ELEMENT, 4},
-    {"velocity", ELEMENT, 3},
-    {"force", ELEMENT, 3},
-    {"torque", ELEMENT, 3},
-    {"spin", ELEMENT, 3},
-    {"mass", ELEMENT, 1},
-    {"inertia", ELEMENT, 1},
-    {"gradient", ELEMENT, 9},
-    {"stress", ELEMENT, 9},
-    {"flux", ELEMENT, 9},
-    {"bond_part", ELEMENT, 9},
-    {"strain", ELEMENT, 6},
-    {"volume", ELEMENT, 1},
-    {"inv_volume", ELEMENT, 1},
-    {"modulus", ELEMENT, 1},
-    {"ell_of", ELEMENT, 1},
-    {"lame_of", ELEMENT, 3},
-    {"beam_of", ELEMENT, 3},
-    {"elastic", ELEMENT, 1},
-    {"stabilisation", ELEMENT, 1},
-    {"out", ELEMENT, 1},
-    {"bond_ratio", ELEMENT, 1},
-    {"inv_shape", SLICE, 6},
-    {"spanned", SLICE, 6},
-    {"material", SLICE, 4},
-    {"held_gradient", SLICE, 9},
-    {"held_moment", SLICE, 9},
-    {"offset", SLOT, 3},
-    {"branch", SLOT, 3},
-    {"ratio", SLOT, 1},
-    {"inv_length", SLOT, 1},
-    {"limit", SLOT, 1},
+    {"row_start", STARTS, 1},    {"list", LISTED, 1},
+    {"neighbour", NEIGHBOUR, 1}, {"ahead", ROW, 1},
+    {"boundary", BLOCK_OF, 1},   {"displacement", ELEMENT, 3},
+    {"orientation", ELEMENT, 4}, {"velocity", ELEMENT, 3},
+    {"force", ELEMENT, 3},       {"torque", ELEMENT, 3},
+    {"spin", ELEMENT, 3},        {"mass", ELEMENT, 1},
+    {"inertia", ELEMENT, 1},     {"gradient", ELEMENT, 9},
+    {"stress", ELEMENT, 9},      {"flux", ELEMENT, 9},
+    {"bond_part", ELEMENT, 9},   {"strain", ELEMENT, 6},
+    {"volume", ELEMENT, 1},      {"inv_volume", ELEMENT, 1},
+    {"modulus", ELEMENT, 1},     {"ell_of", ELEMENT, 1},
+    {"lame_of", ELEMENT, 3},     {"beam_of", ELEMENT, 3},
+    {"elastic", ELEMENT, 1},     {"stabilisation", ELEMENT, 1},
+    {"out", ELEMENT, 1},         {"bond_ratio", ELEMENT, 1},
+    {"inv_shape", SLICE, 6},     {"spanned", SLICE, 6},
+    {"material", SLICE, 4},      {"held_gradient", SLICE, 9},
+    {"held_moment", SLICE, 9},   {"offset", SLOT, 3},
+    {"branch", SLOT, 3},         {"ratio", SLOT, 1},
+    {"inv_length", SLOT, 1},     {"limit", SLOT, 1},
 };
 
 typedef struct array {
@@ -100,6 +82,7 @@ static int element_of(const bench *b, const array *a, int at)
 {
     const int width = a->is.width;
     switch (a->is.where) {
+    case ROW:
     case ELEMENT: return at / width < b->n ? at / width : -1;
     case NEIGHBOUR:
     case SLOT:
@@ -117,6 +100,7 @@ static int numbers_of(const bench *b, storage is)
     case STARTS: return SLICES + 1;
     case LISTED: return 1;
     case BLOCK_OF: return SLICES;
+    case ROW:
     case ELEMENT:
     case SLICE: return b->n * is.width;
     default: return b->n * is.width * SLOTS;
@@ -141,6 +125,7 @@ static void fill(const bench *b, array *a, uint32_t *seed)
         case NEIGHBOUR:
             a->first.integer[k] = (element_of(b, a, k) + (slot % SLOTS + 1) * b->slice + 3 * slot + 1) % b->n;
             break;
+        case ROW: a->first.integer[k] = (k + b->slice) % b->n; break;
         case BLOCK_OF: a->first.integer[k] = k; break;
         default: a->first.real[k] = 0.5 + (double)(next(seed) % 1000) / 1000; break;
         }

@@ -76,6 +76,7 @@ static brc_status upload_connectivity(brc_simulation *s)
     const int slice = layout->slice;
     BRC_TRY(brc_upload_int(s->row_start, layout->slot_start, layout->n_slices + 1));
     BRC_TRY(brc_upload_int(s->boundary, layout->boundary, layout->n_slices));
+    BRC_TRY(brc_upload_int(s->asked_ahead, layout->ahead, layout->n_rows));
     int32_t *rows = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice, "neighbours"));
     for (int32_t block = 0; block < layout->n_slices; ++block)
@@ -224,6 +225,7 @@ static bool many_beams(const brc_wants *w)
 static const brc_field_row rows[] = {
     {"row_start", brc_each_slice_end, 1, BRC_FIELD_INT, NULL, AT(row_start), "slice starts", "-", BRC_NOT_KEPT},
     {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-", BRC_NOT_KEPT},
+    {"ahead", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(asked_ahead), "rows asked for ahead", "-", BRC_NOT_KEPT},
     {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-", BRC_NOT_KEPT},
     {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
     {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_rigid_cells, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},

@@ -149,8 +149,3 @@ const brc_effect_ahead *brc_effects_ahead(const brc_simulation *s)
         if (s->effect[k]->ahead) return s->effect[k]->ahead;
     return NULL;
 }
-
-double brc_simulation_floor_bytes(const brc_simulation *s)
-{
-    return s->model->floor_bytes(s);
-}

@@ -107,6 +107,7 @@ brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int
                 layout->half_edge[(int64_t)slot * slice + l] =
                     e >= 0 && k < degree(domain, e) ? (int32_t)(domain->row_start[e] + k) : -1;
             }
+    BRC_TRY_OR(cleanup, brc_layout_ahead(context, domain, layout));
     *out = layout;
     layout = NULL;
 cleanup:
@@ -142,6 +143,7 @@ void brc_layout_free(brc_layout **layout)
     brc_memory_free((*layout)->element_of_row);
     brc_memory_free((*layout)->slot_start);
     brc_memory_free((*layout)->half_edge);
+    brc_memory_free((*layout)->ahead);
     brc_memory_free((*layout)->boundary);
     brc_memory_free(*layout);
     *layout = NULL;

@@ -16,6 +16,7 @@ typedef struct brc_layout {
     int32_t *element_of_row; /* [n_rows], -1: padding */
     int32_t *slot_start;     /* [n_slices + 1] */
     int32_t *half_edge;      /* [n_slots][C] half-edge of the domain stored there, -1: padding */
+    int32_t *ahead;          /* [n_rows] see brc_layout_ahead */
     int32_t *boundary;       /* [n_slices] number of the boundary block, -1: no element of the slice has a free face */
     int32_t n_boundary;
 } brc_layout;
@@ -24,6 +25,12 @@ typedef struct brc_layout {
 brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int32_t slice, brc_layout **out);
 /* Every slice gets a boundary block, in order. */
 void brc_layout_all_boundary(brc_layout *layout);
+/* Which rows the groups of a CPU ask for ahead (kernels/core/vec.h), one for each row of the group that asks: those
+ * that a group some BRC_AHEAD_LEAD rows further on gathers, while none of the BRC_AHEAD_ROWS before it gathers or goes
+ * over them; the row itself where there is none. As many rows as stay in a second-level cache of 1 MB while their lists
+ * of neighbours pass through it. */
+enum { BRC_AHEAD_ROWS = 512, BRC_AHEAD_LEAD = 32 };
+brc_status brc_layout_ahead(brc_context *context, const brc_domain *domain, brc_layout *layout);
 void brc_layout_free(brc_layout **layout);
 /* Where the other half-edge of every stored bond is stored, twin [n_slots * C]; 0 for padding. */
 brc_status brc_layout_twins(brc_context *context, const brc_layout *layout, const brc_domain *domain, int32_t *twin);

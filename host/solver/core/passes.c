@@ -276,3 +276,41 @@ brc_status brc_pass_run_on(const brc_pass *pass, int64_t n_items, const void *re
                         brc_kernel_name(pass->kernel), n_given, pass->n_open);
     return brc_kernel_launch(pass->kernel, n_items, pass->n, args);
 }
+
+/* ---- the floor ---- */
+
+static const brc_field_row *wanted_row(const brc_field_table *const *tables, const char *name, const brc_wants *wants)
+{
+    for (; *tables; ++tables) {
+        if ((*tables)->wanted && !(*tables)->wanted(wants)) continue;
+        for (int k = 0; k < (*tables)->n; ++k) {
+            const brc_field_row *row = (*tables)->fields + k;
+            if (strcmp(row->name, name) == 0 && (!row->wanted || row->wanted(wants))) return row;
+        }
+    }
+    return NULL;
+}
+
+static double bytes_of(const brc_field_row *row, const brc_wants *wants)
+{
+    const double n = row->count == brc_each_entry                                 ? (double)wants->domain->n_half_edges
+                     : row->count == brc_each_row || row->count == brc_each_block ? (double)wants->domain->n_elements
+                                                                                  : 0;
+    const int32_t each = row->number == BRC_FIELD_STATE   ? wants->state_bytes
+                         : row->number == BRC_FIELD_COEFF ? wants->coeff_bytes
+                                                          : (int32_t)sizeof(int32_t);
+    return n * row->width * each;
+}
+
+double brc_pass_floor(const brc_pass *pass, const brc_wants *wants, const brc_field_table *const *tables,
+                      const char *unread)
+{
+    double sum = 0;
+    for (int k = 0; k < pass->n; ++k) {
+        const parameter *p = pass->of + k;
+        const brc_field_row *row =
+            p->use == BRC_USE_VALUE || has_word(unread, p->name) ? NULL : wanted_row(tables, p->name, wants);
+        if (row) sum += (p->use == BRC_USE_UPDATE ? 2 : 1) * bytes_of(row, wants);
+    }
+    return sum;
+}

@@ -90,22 +90,10 @@ typedef struct brc_loads {
     bool on_faces; /* some face is held or bears a traction */
 } brc_loads;
 
-/* Passes of the run; one that a model does not use stays NULL. */
+/* Passes of every run; of rotations only where elements turn. */
 typedef struct brc_run_passes {
-    brc_pass *gradient, *stress, *flux, *flux_linear, *force, *energy, *deformation;
-    brc_pass *gradient_listed, *stress_listed, *flux_listed, *force_listed,
-        *energy_listed; /* cells, only with fracture (rings.h) */
-    brc_pass *published_force_listed, *published_energy_listed;
-    brc_pass *held_prescribe, *held_gradient, *held_moment, *held_force, *held_energy, *traction_moment,
-        *traction_force, *traction_turned;
-    brc_pass *face_displacement;
-    brc_pass *cbm_force, *cbm_energy, *cbm_virial;
-    brc_pass *published_strain, *published_force, *published_energy, *advance_rotation, *add_spin_energy;
-    brc_pass *advance, *advance_tchamwa, *numerical_close, *kinetic_energy, *divide_by_mass;
-    brc_pass *impose_motion, *impose_book, *zero_imposed, *zero_turned, *push_elements, *impose_turn, *turn_book;
-    struct {
-        int gradient, stress, flux, force;
-    } ring; /* dlsm: the last ring around broken bonds where each has other results (brc_passes_rings) */
+    brc_pass *advance, *advance_rotation, *advance_tchamwa, *numerical_close;
+    brc_pass *kinetic_energy, *add_spin_energy, *divide_by_mass;
 } brc_run_passes;
 
 /* Numbers of the scene that kernels ask for by name; those of one material where there is one (kernels gather those of
@@ -162,7 +150,7 @@ struct brc_simulation {
     int32_t *material_of_element; /* [n_elements] index into scene.materials */
 
     /* connectivity and geometry (geometry.c) */
-    brc_buffer *row_start, *neighbour, *boundary;
+    brc_buffer *row_start, *neighbour, *asked_ahead, *boundary;
     brc_buffer *area, *offset, *ratio; /* dlsm: s, d, q; published: branch (in offset), S (in area) */
     brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;

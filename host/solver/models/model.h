@@ -34,6 +34,7 @@ typedef struct brc_model_effect {
  * tractions. */
 typedef struct brc_face_scopes {
     const struct brc_scope *held, *held_state, *held_load, *traction;
+    struct brc_pass **prescribe, **energy; /* to be made: held faces are put where they are to be; their energies */
 } brc_face_scopes;
 
 /* How cells go on where bonds broke (cell_breaks.c). */
@@ -113,6 +114,13 @@ typedef struct brc_model_step_bound {
     const char *name, *with_contact;
 } brc_model_step_bound;
 
+/* A pass of a step, and names (apart by spaces) that it does not read in this run; NULL: none. */
+enum { BRC_STEP_PASSES = 6 };
+typedef struct brc_step_pass {
+    const struct brc_pass *pass;
+    const char *unread;
+} brc_step_pass;
+
 typedef struct brc_bond_model {
     brc_element_kind element; /* that it takes */
     bool turns;               /* elements have rotations of their own */
@@ -138,7 +146,8 @@ typedef struct brc_bond_model {
     /* Of cells that may open against a cohesion: gradients, stresses and fluxes as the state has them, around a list or
      * (NULL) of all; moved: gradients of ring 2 too. */
     brc_status (*fluxes_of_state)(struct brc_simulation *s, const struct brc_ring_list *list, bool moved);
-    double (*floor_bytes)(const struct brc_simulation *s); /* the least that a step must move */
+    /* The passes of a step, for the least that it must move (brc_simulation_floor_bytes); returns how many. */
+    int (*step_passes)(const struct brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES]);
 
     /* Of every element [n_elements][6] xx yy zz yz xz xy, each may be NULL; of faces [n][3]. */
     brc_status (*strain_stress)(struct brc_simulation *s, double *strain, double *stress, double *cauchy);

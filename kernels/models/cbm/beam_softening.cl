@@ -103,8 +103,8 @@ LAW beam_loss beam_group_loss(int group, OWN(int) row_start, OWN(int) neighbour,
     beam_loss sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}, zero};
     for (int slot = row_start[slice]; slot < last; ++slot) {
         if (!beam_any(open, (brc_size)slot * C + (brc_size)lane0, BEAM_OPENS, BEAM_ENDED)) continue;
-        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
-                                          orientation, axial, bend, twist, beam_of, 1);
+        const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement, orientation,
+                                          axial, bend, twist, beam_of, 1);
         const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
         const beam_part part = beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)),
                                             own, q_j, beam_lean_at(crack, slot, lane0));
@@ -231,7 +231,7 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, OWN(int) r
                 int any = 0;
                 for (int l = 0; l < W; ++l) any |= lead[entry + (brc_size)l] && open[entry + (brc_size)l] == BEAM_OPENS;
                 if (!any) continue;
-                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                                   orientation, axial, bend, twist, beam_of, 1);
                 const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
                 beam_lean lean = beam_lean_at(crack, slot, lane0);
@@ -355,7 +355,7 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                     any |= beam_looks(neighbour, lead, open, touched, first + l, entry + (brc_size)l,
                                       fracture_dies(neighbour, choice, first + l, entry + (brc_size)l));
                 if (!any) continue;
-                const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+                const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                                   orientation, axial, bend, twist, beam_of, 1);
                 const lane k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond),
                            whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);

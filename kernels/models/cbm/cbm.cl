@@ -31,6 +31,13 @@ LAW cbm_own cbm_own_of(int group, OWN(state) displacement, OWN(state) orientatio
     return (cbm_own){row, state_gather3(displacement, row), q, quat_matrix_minus_identity(q, finite)};
 }
 
+/* What a group asks for ahead. */
+LAW void cbm_ask_ahead(int group, GATHER(state) displacement, GATHER(state) orientation, OWN(int) ahead)
+{
+    states_later(displacement, 3, ahead, group * W);
+    states_later(orientation, 4, ahead, group * W);
+}
+
 /* One beam as the group sees it. */
 typedef struct {
     cbm_shape shape;
@@ -39,16 +46,14 @@ typedef struct {
     lane_vec3 branch; /* x_j - x_i now [m] */
 } cbm_bond;
 
-/* The beams of a slot: gathered, and those of the slots to come asked for. Only called with a constant `finite`. */
-LAW cbm_bond cbm_bond_at(int slot, int last, int lane0, cbm_own own, OWN(int) neighbour, OWN(coeff) branch,
-                         OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
-                         coeff bend, coeff twist, GATHER(coeff) beam_of, int finite)
+/* The beams of a slot. Only called with a constant `finite`. */
+LAW cbm_bond cbm_bond_at(int slot, int lane0, cbm_own own, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
+                         GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                         GATHER(coeff) beam_of, int finite)
 {
     const lane_int j = int_block(neighbour, slot, lane0);
     rows_ahead3(branch, slot);
     rows_ahead1(inv_length, slot);
-    gathers_ahead(displacement, 3, neighbour, slot, last, lane0);
-    gathers_ahead(orientation, 4, neighbour, slot, last, lane0);
     const lane_vec3 r = lane_block3(branch, slot, lane0);
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
     const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
@@ -67,8 +72,8 @@ LAW cbm_end cbm_group_force(int group, OWN(int) row_start, OWN(int) neighbour, O
     const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
     cbm_end sum = {{LANE_ZERO, LANE_ZERO, LANE_ZERO}, {LANE_ZERO, LANE_ZERO, LANE_ZERO}};
     for (int slot = row_start[slice]; slot < last; ++slot) {
-        const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
-                                          orientation, axial, bend, twist, beam_of, finite);
+        const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement, orientation,
+                                          axial, bend, twist, beam_of, finite);
         const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, finite);
         sum.force = lane_vec3_add(sum.force, end.force);
         sum.torque = lane_vec3_add(sum.torque, end.torque);
@@ -78,12 +83,13 @@ LAW cbm_end cbm_group_force(int group, OWN(int) row_start, OWN(int) neighbour, O
 
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. orientation: unit quaternions (w x y z)
  * [n][4]. */
-KERNEL void cbm_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+KERNEL void cbm_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) branch,
                            OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
                            coeff bend, coeff twist, GATHER(coeff) beam_of, int finite, PUT(state) force,
                            PUT(state) torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
+        cbm_ask_ahead(group, displacement, orientation, ahead);
         const cbm_end sum = finite ? cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement,
                                                      orientation, axial, bend, twist, beam_of, 1)
                                    : cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement,
@@ -94,16 +100,17 @@ KERNEL void cbm_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour,
 }
 
 /* Elastic energy of every element, half of each of its beams [J] [n]. */
-KERNEL void cbm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
-                       GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
-                       GATHER(coeff) beam_of, PUT(state) elastic)
+KERNEL void cbm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) branch,
+                       OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                       coeff bend, coeff twist, GATHER(coeff) beam_of, PUT(state) elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
+        cbm_ask_ahead(group, displacement, orientation, ahead);
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
         const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
         lane sum = LANE_ZERO;
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+            const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                               orientation, axial, bend, twist, beam_of, 1);
             sum += cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
         }
@@ -113,16 +120,17 @@ KERNEL void cbm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN
 
 /* Virial of every element [J] [n][6] xx yy zz yz xz xy (cbm_add_virial, summed over its beams). A stress is that over
  * twice a volume (NAH19 eq. 5). */
-KERNEL void cbm_virial(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
-                       GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
-                       GATHER(coeff) beam_of, PUT(coeff) virial)
+KERNEL void cbm_virial(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) branch,
+                       OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                       coeff bend, coeff twist, GATHER(coeff) beam_of, PUT(coeff) virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
+        cbm_ask_ahead(group, displacement, orientation, ahead);
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
         const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
         lane_sym3 sum = {LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, last, lane0, own, neighbour, branch, inv_length, displacement,
+            const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                               orientation, axial, bend, twist, beam_of, 1);
             const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
             sum = cbm_add_virial(sum, bond.branch, end.force);

@@ -14,7 +14,6 @@ LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) ar
         const lane_int j = members_neighbour(who, neighbour, slot);
         members_ahead3(who, area, slot);
         members_ahead3(who, offset, slot);
-        members_gathers_ahead9(who, gradient, neighbour, slot);
         sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, j), h), members_row3(who, offset, slot),
                               members_face3(who, area, slot));
     }
@@ -41,7 +40,6 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, aside room, int slot, dls
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
     members_ahead1(who, ratio, slot);
-    members_gathers_ahead9(who, gradient, neighbour, slot);
     const lane_vec3 s = members_face3(who, area, slot);
     const lane q = members_row1(who, ratio, slot);
     const lane_mat3 h_j = lane_gather9(gradient, j);
@@ -68,7 +66,6 @@ LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sum
 {
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, offset, slot);
-    members_gathers_ahead9(who, stress, neighbour, slot);
     return dlsm_flux_add_stress(sums, lane_mat3_add(p, lane_gather9(stress, j)), members_face3(who, area, slot),
                                 members_row3(who, offset, slot));
 }
@@ -149,16 +146,17 @@ LAW lane_mat3 dlsm_flux_of(members who, aside room, OWN(int) neighbour, OWN(coef
 
 /* Pass 3 of all elements by the linear law; the general one is in dlsm_passes.cl. A GPU gives a kernel the registers of
  * its longest loop, and this one is shorter. */
-KERNEL void dlsm_flux_linear(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
-                             OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
-                             OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment,
-                             int face_loads, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                             OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of, PUT(coeff) flux,
-                             PUT(coeff) bond_part)
+KERNEL void dlsm_flux_linear(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
+                             OWN(coeff) offset, OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
+                             GATHER(coeff) stress, OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary,
+                             OWN(coeff) held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
+                             coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
+                             PUT(coeff) flux, PUT(coeff) bond_part)
 {
     ASIDE(room, ASIDE_FLUX);
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
+        members_later(who, gradient, 9, ahead), members_later(who, stress, 9, ahead);
         members_store9(who, flux,
                        dlsm_flux_of(who, room, neighbour, area, offset, ratio, displacement, gradient, stress,
                                     inv_shape, inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta,
@@ -196,7 +194,6 @@ LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, OWN(int) neighbo
     const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, area, slot);
     members_ahead1(who, ratio, slot);
-    members_gathers_ahead9(who, flux, neighbour, slot);
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.u),
                     s = members_face3(who, area, slot);
     const lane q = members_row1(who, ratio, slot);

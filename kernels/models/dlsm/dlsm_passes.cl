@@ -1,11 +1,12 @@
 /* dlsm: its four passes and the ledger's, over all elements or over a list (PASS, kernels.h); laws in dlsm.cl. */
 
 /* Pass 1: least-squares displacement gradient H [-] [n][9]. area [slot][3][C], inv_shape A^-1 [slice][6][C]. */
-KERNEL void PASS(dlsm_gradient)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
+KERNEL void PASS(dlsm_gradient)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
                                 GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_states_later(who, displacement, 3, ahead);
         const state_vec3 u = state_gather3(displacement, who.own);
         lane_mat3 a = lane_mat3_zero();
         for (int slot = who.begin; slot < who.end; ++slot) {
@@ -19,13 +20,14 @@ KERNEL void PASS(dlsm_gradient)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbo
 }
 
 /* Pass 2: first Piola-Kirchhoff stress P [Pa] [n][9]. offset d [slot][3][C]. */
-KERNEL void PASS(dlsm_stress)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
-                              GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
+KERNEL void PASS(dlsm_stress)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
+                              OWN(coeff) offset, GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
                               OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
                               OWN(coeff) material, int finite, PUT(coeff) stress)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_later(who, gradient, 9, ahead);
         const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary,
                                                 held_gradient, face_loads);
         const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
@@ -34,16 +36,18 @@ KERNEL void PASS(dlsm_stress)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour
 }
 
 /* Pass 3: B [Pa] [n][9] and, with many materials, the bond part. */
-KERNEL void PASS(dlsm_flux_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
-                                 OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient,
-                                 GATHER(coeff) stress, OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary,
-                                 OWN(coeff) held_moment, int face_loads, coeff k_one, coeff ell_one, coeff beta,
-                                 coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
-                                 int finite, PUT(coeff) flux, PUT(coeff) bond_part)
+KERNEL void PASS(dlsm_flux_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
+                                 OWN(coeff) offset, OWN(coeff) ratio, GATHER(state) displacement,
+                                 GATHER(coeff) gradient, GATHER(coeff) stress, OWN(coeff) inv_shape,
+                                 OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment, int face_loads,
+                                 coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, OWN(coeff) material,
+                                 GATHER(coeff) modulus, GATHER(coeff) ell_of, int finite, PUT(coeff) flux,
+                                 PUT(coeff) bond_part)
 {
     ASIDE(room, ASIDE_FLUX);
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_later(who, gradient, 9, ahead), members_later(who, stress, 9, ahead);
         members_store9(who, flux,
                        dlsm_flux_of(who, room, neighbour, area, offset, ratio, displacement, gradient, stress,
                                     inv_shape, inv_volume, boundary, held_moment, face_loads, k_one, ell_one, beta,
@@ -52,12 +56,13 @@ KERNEL void PASS(dlsm_flux_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighb
 }
 
 /* Pass 4: force f [N] [n][3] on every element. */
-KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
-                             GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
-                             coeff one_plus_tau, GATHER(coeff) modulus, PUT(state) force)
+KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
+                             OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
+                             coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, PUT(state) force)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_states_later(who, displacement, 3, ahead), members_later(who, flux, 9, ahead);
         const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = who.begin; slot < who.end; ++slot) {
@@ -71,13 +76,14 @@ KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour,
 
 /* As dlsm_force, which has what it takes at hand: and where some bond of a group has no room (cell_normal.h), look [n /
  * W] is 1; cells_check puts it back to 0. */
-KERNEL void PASS(cells_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
-                              GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
-                              coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient, OWN(coeff) stress,
-                              OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
+KERNEL void PASS(cells_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
+                              OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
+                              coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient,
+                              OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_states_later(who, displacement, 3, ahead), members_later(who, flux, 9, ahead);
         const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
         const cell_side side =
             cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));

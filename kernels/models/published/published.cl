@@ -20,12 +20,13 @@ LAW lane_mat3 published_fit(members who, OWN(int) neighbour, OWN(coeff) branch, 
 
 /* Strain of every element in the global frame [-] [n][6] (xx yy zz yz xz xy). inv_shape: (sum w R (x) R)^-1
  * [slice][6][C]; area_weights: w = S/|R| instead of 1; orientation: unit quaternions (w x y z) [n][4]. */
-KERNEL void published_strain_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
-                                  OWN(coeff) area, int area_weights, GATHER(state) displacement, OWN(state) orientation,
-                                  OWN(coeff) inv_shape, int finite, PUT(coeff) strain)
+KERNEL void published_strain_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead,
+                                  OWN(coeff) branch, OWN(coeff) area, int area_weights, GATHER(state) displacement,
+                                  OWN(state) orientation, OWN(coeff) inv_shape, int finite, PUT(coeff) strain)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
+        members_states_later(who, displacement, 3, ahead);
         const lane_mat3 fitted = published_fit(who, neighbour, branch, area, area_weights, displacement, inv_shape);
         const lane_quat q = lane_gather4(orientation, who.own);
         lane_store6(strain, group * W, finite ? published_strain(fitted, q, 1) : published_strain(fitted, q, 0));

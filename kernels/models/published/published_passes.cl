@@ -2,13 +2,14 @@
 
 /* As published_strain_pass where bonds may be missing. spanned: projector on the directions that an element's bonds
  * span [slice][6][C]. */
-KERNEL void PASS(published_breaking_strain)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
-                                            OWN(coeff) area, int area_weights, GATHER(state) displacement,
-                                            OWN(state) orientation, OWN(coeff) inv_shape, OWN(coeff) spanned,
-                                            int finite, PUT(coeff) strain)
+KERNEL void PASS(published_breaking_strain)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead,
+                                            OWN(coeff) branch, OWN(coeff) area, int area_weights,
+                                            GATHER(state) displacement, OWN(state) orientation, OWN(coeff) inv_shape,
+                                            OWN(coeff) spanned, int finite, PUT(coeff) strain)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_states_later(who, displacement, 3, ahead);
         const lane_mat3 fitted = published_fit(who, neighbour, branch, area, area_weights, displacement, inv_shape);
         const lane_quat q = quat_conjugate(lane_gather4(orientation, who.own));
         const lane_mat3 turn = finite ? quat_matrix_minus_identity(q, 1) : quat_matrix_minus_identity(q, 0);
@@ -20,14 +21,16 @@ KERNEL void PASS(published_breaking_strain)(PASS_ITEMS, OWN(int) row_start, OWN(
 }
 
 /* Force [N] and torque about its own centre [N m] on every element [n][3]. */
-KERNEL void PASS(published_force_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
-                                       OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
-                                       GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                       coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, int finite,
-                                       PUT(state) force, PUT(state) torque)
+KERNEL void PASS(published_force_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead,
+                                       OWN(coeff) branch, OWN(coeff) area, GATHER(state) displacement,
+                                       GATHER(state) orientation, GATHER(coeff) strain, coeff lambda_one, coeff mu_one,
+                                       coeff young_one, coeff rotation_factor, coeff couple, GATHER(coeff) lame_of,
+                                       int finite, PUT(state) force, PUT(state) torque)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_states_later(who, displacement, 3, ahead), members_states_later(who, orientation, 4, ahead);
+        members_later(who, strain, 6, ahead);
         const published_own own = published_own_of(who.own, displacement, orientation, strain);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = who.begin; slot < who.end; ++slot) {
@@ -45,14 +48,17 @@ KERNEL void PASS(published_force_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) 
 /* As published_force_pass with the full law; bond_ratio [n]: the largest normal stress over limit of each element's
  * bonds
  * [-]. */
-KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
-                                           OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
-                                           GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                                           coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit,
-                                           PUT(state) force, PUT(state) torque, PUT(coeff) bond_ratio)
+KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead,
+                                           OWN(coeff) branch, OWN(coeff) area, GATHER(state) displacement,
+                                           GATHER(state) orientation, GATHER(coeff) strain, coeff lambda_one,
+                                           coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
+                                           GATHER(coeff) lame_of, OWN(coeff) limit, PUT(state) force, PUT(state) torque,
+                                           PUT(coeff) bond_ratio)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = PASS_MEMBERS(item, row_start);
+        members_states_later(who, displacement, 3, ahead), members_states_later(who, orientation, 4, ahead);
+        members_later(who, strain, 6, ahead);
         const published_own own = published_own_of(who.own, displacement, orientation, strain);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         lane largest = LANE_ZERO;

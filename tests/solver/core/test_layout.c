@@ -47,11 +47,48 @@ static void elements_with_free_faces_have_a_boundary_block(void **state)
     close_case(&c);
 }
 
+/* Rows that a slice gathers and that neither it nor the slices before it gathered or went over lately, nor come next,
+ * are asked for before: all but a few. */
+static void rows_far_away_are_asked_for_before_they_are_gathered(void **state)
+{
+    (void)state;
+    bench_case c;
+    open_case(&c, (case_options){.fill = "cells: [24, 24, 24], spread: 50 %, seed: 4"});
+    brc_layout *layout;
+    assert_done(&c, brc_layout_create(c.context, c.domain, 8, &layout));
+    const int n = layout->n_rows;
+    int *gathered = malloc((size_t)n * sizeof *gathered), *asked = malloc((size_t)n * sizeof *asked);
+    for (int r = 0; r < n; ++r)
+        gathered[r] = asked[r] = -n;
+    int wanted = 0, missed = 0;
+    for (int now = 0; now < n; now += 8) {
+        for (int l = 0; l < 8; ++l) {
+            assert_in_range(layout->ahead[now + l], 0, n - 1);
+            if (layout->ahead[now + l] != now + l) asked[layout->ahead[now + l]] = now;
+        }
+        for (int k = layout->slot_start[now / 8] * 8; k < layout->slot_start[now / 8 + 1] * 8; ++k) {
+            if (layout->half_edge[k] < 0) continue;
+            const int row = layout->row_of_element[c.domain->neighbour[layout->half_edge[k]]];
+            if (now - gathered[row] > BRC_AHEAD_ROWS && abs(row - now) > BRC_AHEAD_ROWS) {
+                wanted++;
+                missed += now - asked[row] < BRC_AHEAD_LEAD || now - asked[row] > BRC_AHEAD_LEAD + BRC_AHEAD_ROWS;
+            }
+            gathered[row] = now;
+        }
+    }
+    assert_true(wanted > 1000);
+    assert_true(missed < wanted / 20);
+    free(gathered), free(asked);
+    brc_layout_free(&layout);
+    close_case(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_element_and_half_edge_is_stored_once),
         cmocka_unit_test(elements_with_free_faces_have_a_boundary_block),
+        cmocka_unit_test(rows_far_away_are_asked_for_before_they_are_gathered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

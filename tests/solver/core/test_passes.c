@@ -168,7 +168,7 @@ static brc_pass *open_pass(fixture *f, const char *kernel, const char *names)
     return pass;
 }
 
-#define ITEMS "row_start neighbour "
+#define ITEMS "row_start neighbour ahead "
 #define FLUX                                                                                                           \
     ITEMS "area offset ratio displacement gradient stress inv_shape inv_volume boundary held_moment face_loads "       \
           "k_one ell_one beta one_plus_tau material modulus ell_of finite flux bond_part"

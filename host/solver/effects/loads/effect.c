@@ -46,9 +46,11 @@ static brc_status leave(brc_simulation *s)
     brc_loads_free(&s->loads);
     return BRC_OK;
 }
+extern const brc_effect brc_stage_loads_effect;
 static void release(brc_simulation *s)
 {
     brc_loads_free(&s->loads);
+    brc_memory_free(*brc_effect_own(s, &brc_stage_loads_effect));
 }
 static brc_status constrain(brc_simulation *s, const brc_occasion *now)
 {

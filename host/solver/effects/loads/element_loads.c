@@ -191,7 +191,7 @@ brc_status brc_pushes_apply(brc_simulation *s, const brc_force_request *r)
     for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
         brc_push_load *p = s->loads.pushes + i;
         p->factor = brc_load_factor(brc_current_stage(s)->loads + p->load, r->t, is_static(s));
-        BRC_TRY(brc_pass_run_on(s->pass.push_elements, p->n, r, p, NULL));
+        BRC_TRY(brc_pass_run_on(brc_load_passes_of(s)->push_elements, p->n, r, p, NULL));
         if (r->book != BRC_BOOK_NOTHING) p->last_factor = p->factor;
     }
     return BRC_OK;
@@ -204,7 +204,7 @@ brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r)
         const brc_load *load = brc_current_stage(s)->loads + m->load;
         const double factor = brc_load_factor(load, r->t, is_static(s)),
                      rate = is_static(s) ? 0 : brc_load_rate(load, r->t);
-        BRC_TRY(BRC_RUN_ON(s->pass.turn_book, m->n, r, m, {"step", BRC_STATE(factor - m->last_factor)},
+        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->turn_book, m->n, r, m, {"step", BRC_STATE(factor - m->last_factor)},
                            {"rate", BRC_STATE(rate)}));
         if (r->book == BRC_BOOK_NOTHING) continue;
         m->last_factor = factor;
@@ -215,7 +215,7 @@ brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r)
 
 static brc_status turn(brc_simulation *s, const brc_turn_load *m, double angle, bool finite, double rate)
 {
-    return BRC_RUN_ON(s->pass.impose_turn, m->n, NULL, m, {"angle", BRC_STATE(angle)},
+    return BRC_RUN_ON(brc_load_passes_of(s)->impose_turn, m->n, NULL, m, {"angle", BRC_STATE(angle)},
                       {"finite", BRC_INT(finite ? 1 : 0)}, {"rate", BRC_STATE(rate)});
 }
 

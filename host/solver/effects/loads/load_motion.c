@@ -1,5 +1,6 @@
 /* What the loads of the stage prescribe and book as it goes on. */
 #include "element_loads.h"
+#include "load_fields.h"
 
 brc_status brc_loads_prescribe(brc_simulation *s, double t)
 {
@@ -7,15 +8,16 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
     const bool is_static = stage->solver == BRC_SOLVER_STATIC;
     for (int32_t i = 0; i < s->loads.held.n_loads; ++i) {
         brc_held_load *e = s->loads.held.loads + i;
-        BRC_TRY(BRC_RUN_ON(s->pass.held_prescribe, e->n, NULL, e,
+        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->held_prescribe, e->n, NULL, e,
                            {"factor", BRC_STATE(brc_load_factor(stage->loads + e->load, t, is_static))}));
     }
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
         const brc_load *load = brc_imposed_of(stage, m);
-        BRC_TRY(
-            BRC_RUN_ON(s->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(brc_load_factor(load, t, is_static))},
-                       {"rate", BRC_STATE(is_static ? 0 : brc_load_rate(load, t))}, {"set_displacement", BRC_INT(1)}));
+        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->impose_motion, m->n, NULL, m,
+                           {"factor", BRC_STATE(brc_load_factor(load, t, is_static))},
+                           {"rate", BRC_STATE(is_static ? 0 : brc_load_rate(load, t))},
+                           {"set_displacement", BRC_INT(1)}));
     }
     return brc_turns_prescribe(s, t);
 }
@@ -26,7 +28,7 @@ brc_status brc_imposed_book(brc_simulation *s, const brc_force_request *r)
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
         const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);
-        BRC_TRY(BRC_RUN_ON(s->pass.impose_book, m->n, r, m, {"rate", BRC_STATE(rate)}));
+        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->impose_book, m->n, r, m, {"rate", BRC_STATE(rate)}));
         if (r->book != BRC_BOOK_NOTHING) m->last_rate = rate;
     }
     return BRC_OK;
@@ -37,7 +39,7 @@ brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
     const brc_stage *stage = brc_current_stage(s);
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
-        BRC_TRY(BRC_RUN_ON(s->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(0)},
+        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->impose_motion, m->n, NULL, m, {"factor", BRC_STATE(0)},
                            {"rate", BRC_STATE(brc_load_rate(brc_imposed_of(stage, m), t))},
                            {"set_displacement", BRC_INT(0)}));
     }
@@ -48,7 +50,7 @@ brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector)
 {
     for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
         brc_imposed_load *m = s->loads.imposed + i;
-        BRC_TRY(BRC_RUN_ON(s->pass.zero_imposed, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
+        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->zero_imposed, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
     }
     return BRC_OK;
 }
@@ -57,7 +59,7 @@ brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector)
 {
     for (int32_t i = 0; i < s->loads.n_turns; ++i) {
         brc_turn_load *m = s->loads.turns + i;
-        BRC_TRY(BRC_RUN_ON(s->pass.zero_turned, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
+        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->zero_turned, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
     }
     return BRC_OK;
 }
@@ -94,6 +96,6 @@ brc_status brc_force_held_energy(brc_simulation *s, double *out)
     brc_held_faces *h = &s->loads.held;
     *out = 0;
     if (!h->n_faces) return BRC_OK;
-    BRC_TRY(brc_pass_run(s->pass.held_energy, h->n_elements));
+    BRC_TRY(brc_pass_run(brc_load_passes_of(s)->held_energy, h->n_elements));
     return brc_vector_sum(s, h->energy, h->n_faces, out);
 }

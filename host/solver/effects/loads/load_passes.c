@@ -1,6 +1,13 @@
 /* Passes of loads, in the scopes of their lists. */
 #include "load_fields.h"
 
+extern const brc_effect brc_stage_loads_effect;
+
+const brc_load_passes *brc_load_passes_of(const brc_simulation *s)
+{
+    return *brc_effect_own((brc_simulation *)s, &brc_stage_loads_effect);
+}
+
 /* One thing of many, which each launch gives: a load. */
 static brc_scope scope_of_load(const char *owner, const brc_field_table *table, int n_values,
                                const brc_value_row *values, const brc_scope *outer)
@@ -22,7 +29,9 @@ brc_status brc_load_passes_make(brc_simulation *s)
     static const brc_value_row of_push[] = {{"factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, factor)},
                                             {"last_factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, last_factor)}};
     static const brc_value_row of_turn[] = {{"last_rate", BRC_VALUE_REAL, BRC_FIELD_AT(brc_turn_load, last_rate)}};
-    brc_run_passes *p = &s->pass;
+    void **own = brc_effect_own(s, &brc_stage_loads_effect);
+    BRC_TRY(brc_memory_allocate(s->context, own, 1, sizeof(brc_load_passes), "passes of loads"));
+    brc_load_passes *p = *own;
     const bool turns = s->model->turns;
     const brc_scope of_run = brc_scope_of_run(s),
                     of_request = brc_scope_of_request(&of_run), *const run = &of_run, *const request = &of_request;
@@ -36,7 +45,7 @@ brc_status brc_load_passes_make(brc_simulation *s)
                              .outer = run};
     const brc_scope held_load = scope_of_load("held load", &brc_held_load_fields, 0, NULL, &state);
     const brc_scope traction = scope_of_load("traction", &brc_traction_fields, 1, of_traction, request);
-    const brc_face_scopes faces = {&held, &state, &held_load, &traction};
+    const brc_face_scopes faces = {&held, &state, &held_load, &traction, &p->held_prescribe, &p->held_energy};
     if (s->model->make_face_passes) BRC_TRY(s->model->make_face_passes(s, &faces));
     const brc_scope imposed = scope_of_load("imposed elements", &brc_imposed_fields, 1, of_imposed, request);
     BRC_TRY(BRC_PASSES(s, &imposed, {&p->impose_book, "impose_book", "rate", false}));

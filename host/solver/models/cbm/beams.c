@@ -1,6 +1,7 @@
 /* Model cbm on the host: beams of each material and body, their diagonal blocks, and the time step that follows from
  * them. */
 #include "../../laws/beam_law.h"
+#include "cbm.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "../../effects/fracture/fracture_internal.h"
@@ -226,7 +227,7 @@ static brc_status virial(brc_simulation *s, double *out)
 {
     brc_buffer *rows = NULL; /* asked for at samples and frames only: not kept */
     BRC_TRY(brc_new_coeff(s, &rows, 6 * (int64_t)s->layout->n_rows, "virial"));
-    brc_status status = BRC_RUN(s->pass.cbm_virial, s->n_groups, {"virial", BRC_BUF(rows)});
+    brc_status status = BRC_RUN(brc_cbm_own_of(s)->virial, s->n_groups, {"virial", BRC_BUF(rows)});
     if (status == BRC_OK) status = brc_beam_softening_virial(s, rows);
     if (status == BRC_OK) status = brc_beam_closure_virial(s, rows);
     if (status == BRC_OK) status = brc_coeff_from_rows(s, rows, out, 6);

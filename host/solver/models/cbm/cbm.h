@@ -4,7 +4,18 @@
 
 #include "../../core/simulation_internal.h"
 
+/* What a run of it keeps. */
+typedef struct brc_cbm_own {
+    brc_pass *force, *energy, *virial;
+} brc_cbm_own;
+static inline brc_cbm_own *brc_cbm_own_of(const brc_simulation *s)
+{
+    return s->of_model;
+}
+
 /* ---- passes.c ---- */
+brc_status brc_cbm_create(brc_simulation *s);
+void brc_cbm_free(brc_simulation *s);
 brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);
 
 /* ---- force.c ---- */
@@ -31,6 +42,6 @@ brc_status brc_cbm_upload(brc_simulation *s);
 /* ---- observe.c: what is read of a state ---- */
 /* Virial stress over an element and its neighbours, and the strain it means. */
 brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
-double brc_cbm_floor_bytes(const brc_simulation *s);
+int brc_cbm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES]);
 
 #endif

@@ -7,13 +7,13 @@
 brc_status brc_cbm_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     if (s->fracture && r->finite) return brc_cbm_breaking_force(s, r);
-    return brc_pass_run_on(s->pass.cbm_force, s->n_groups, r, NULL, NULL);
+    return brc_pass_run_on(brc_cbm_own_of(s)->force, s->n_groups, r, NULL, NULL);
 }
 
 brc_status brc_cbm_energies(brc_simulation *s, double *elastic, double *stabilisation)
 {
     *stabilisation = 0;
-    BRC_TRY(brc_pass_run(s->pass.cbm_energy, s->n_groups));
+    BRC_TRY(brc_pass_run(brc_cbm_own_of(s)->energy, s->n_groups));
     BRC_TRY(brc_beam_softening_energy(s));
     BRC_TRY(brc_beam_closure_energy(s));
     return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);

@@ -25,14 +25,8 @@ brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stre
     return status;
 }
 
-double brc_cbm_floor_bytes(const brc_simulation *s)
+int brc_cbm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
-    const brc_precision precision = brc_device_get_precision(s->device);
-    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
-    const double half_edges = (double)s->domain->n_half_edges, n = (double)s->domain->n_elements;
-    const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
-    /* force pass: neighbour, branch, 1/length; u, q read, f and t written; motion: f, v, u, m and t, w, q, I read; v,
-     * u, w, q written */
-    const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + 3 * many * coeff + 6 * state);
-    return force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
+    out[0] = (brc_step_pass){brc_cbm_own_of(s)->force, NULL};
+    return 1;
 }

@@ -1,14 +1,24 @@
 /* Passes of cbm. */
 #include "cbm.h"
 
+brc_status brc_cbm_create(brc_simulation *s)
+{
+    BRC_TRY(brc_memory_allocate(s->context, &s->of_model, 1, sizeof(brc_cbm_own), "model cbm"));
+    return brc_beams_create(s);
+}
+
+void brc_cbm_free(brc_simulation *s)
+{
+    brc_memory_free(s->of_model);
+}
+
 brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request)
 {
-    brc_run_passes *p = &s->pass;
+    brc_cbm_own *p = brc_cbm_own_of(s);
     const brc_beam *beam = brc_beam_of_element(s, 0);
     s->constant.axial = beam->axial;
     s->constant.bend = beam->bend;
     s->constant.twist = beam->twist;
-    BRC_TRY(BRC_PASSES(s, request, BRC_PASS(&p->cbm_force, "cbm_force_pass", NULL)));
-    return BRC_PASSES(s, run, BRC_PASS(&p->cbm_energy, "cbm_energy", NULL),
-                      BRC_PASS(&p->cbm_virial, "cbm_virial", "virial"));
+    BRC_TRY(BRC_PASSES(s, request, BRC_PASS(&p->force, "cbm_force_pass", NULL)));
+    return BRC_PASSES(s, run, BRC_PASS(&p->energy, "cbm_energy", NULL), BRC_PASS(&p->virial, "cbm_virial", "virial"));
 }

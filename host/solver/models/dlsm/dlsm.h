@@ -5,7 +5,23 @@
 #include "../../core/rings.h"
 #include "../../core/simulation_internal.h"
 
+/* What a run of it keeps. */
+typedef struct brc_dlsm_own {
+    brc_pass *gradient, *stress, *flux, *flux_linear, *force, *energy, *deformation, *face_displacement;
+    brc_pass *gradient_listed, *stress_listed, *flux_listed, *force_listed, *energy_listed; /* only with fracture */
+    brc_pass *held_gradient, *held_moment, *held_force, *traction_moment, *traction_force;
+    struct {
+        int gradient, stress, flux, force;
+    } ring; /* the last ring around broken bonds where each has other results (brc_passes_rings) */
+} brc_dlsm_own;
+static inline brc_dlsm_own *brc_dlsm_own_of(const brc_simulation *s)
+{
+    return s->of_model;
+}
+
 /* ---- passes.c ---- */
+brc_status brc_dlsm_create(brc_simulation *s);
+void brc_dlsm_free(brc_simulation *s);
 brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);
 brc_status brc_dlsm_make_face_passes(brc_simulation *s, const brc_face_scopes *in);
 
@@ -42,6 +58,6 @@ brc_status brc_dlsm_upload(brc_simulation *s);
 /* ---- observe.c: what is read of a state ---- */
 brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
 brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out);
-double brc_dlsm_floor_bytes(const brc_simulation *s);
+int brc_dlsm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES]);
 
 #endif

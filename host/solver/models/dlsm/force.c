@@ -16,24 +16,26 @@ typedef struct extent {
 
 static extent extent_of(const brc_simulation *s, const brc_force_request *r)
 {
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
     if (!r->rings) return (extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
     const bool rim = brc_rims_add(s, r->rings); /* rings 2 and 3 are done otherwise */
     return (extent){.list = &r->rings->around,
-                    .gradient = s->pass.ring.gradient,
-                    .stress = s->pass.ring.stress,
-                    .flux = rim ? 1 : s->pass.ring.flux,
-                    .force = rim ? 1 : s->pass.ring.force,
+                    .gradient = own->ring.gradient,
+                    .stress = own->ring.stress,
+                    .flux = rim ? 1 : own->ring.flux,
+                    .force = rim ? 1 : own->ring.force,
                     .whole_flux = r->rings->whole_force};
 }
 
 /* H and, where faces are held, their part of G. */
 static brc_status gradients(brc_simulation *s, const brc_force_request *r, const extent *x)
 {
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
     brc_held_faces *h = &s->loads.held;
-    BRC_TRY(brc_pass_over(s, s->pass.gradient, s->pass.gradient_listed, x->list, x->gradient, r, NULL));
+    BRC_TRY(brc_pass_over(s, own->gradient, own->gradient_listed, x->list, x->gradient, r, NULL));
     if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s, x->list, x->gradient));
     if (h->n_faces)
-        BRC_TRY(BRC_RUN_ON(s->pass.held_gradient, h->n_elements, r, NULL,
+        BRC_TRY(BRC_RUN_ON(own->held_gradient, h->n_elements, r, NULL,
                            {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)}));
     return BRC_OK;
 }
@@ -41,6 +43,7 @@ static brc_status gradients(brc_simulation *s, const brc_force_request *r, const
 /* What held faces, tractions and contact add to Q. */
 static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
 {
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
     brc_held_faces *h = &s->loads.held;
     const bool touching = brc_contact_acts(s, r);
     if (!s->loads.on_faces && !touching) return BRC_OK;
@@ -51,14 +54,14 @@ static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
         brc_phase_within(s, before);
     }
     if (h->n_faces)
-        BRC_TRY(BRC_RUN_ON(s->pass.held_moment, h->n_elements, r, NULL,
+        BRC_TRY(BRC_RUN_ON(own->held_moment, h->n_elements, r, NULL,
                            {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)}));
     if (r->homogeneous) return BRC_OK;
     const brc_stage *stage = brc_current_stage(s);
     for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
         brc_traction_load *t = s->loads.tractions + i;
         const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
-        BRC_TRY(BRC_RUN_ON(s->pass.traction_moment, t->n, NULL, t, {"factor", BRC_COEFF(factor)}));
+        BRC_TRY(BRC_RUN_ON(own->traction_moment, t->n, NULL, t, {"factor", BRC_COEFF(factor)}));
     }
     return BRC_OK;
 }
@@ -66,11 +69,12 @@ static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
 /* Forces of held faces and tractions on their elements, and their work. */
 static brc_status face_forces(brc_simulation *s, const brc_force_request *r)
 {
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
     brc_held_faces *h = &s->loads.held;
     if (h->n_faces) {
         /* the linear operator must not disturb reactions and work: the former go to scratch */
         brc_buffer *reaction = r->homogeneous ? h->scratch : h->reaction;
-        BRC_TRY(BRC_RUN_ON(s->pass.held_force, h->n_elements, r, NULL,
+        BRC_TRY(BRC_RUN_ON(own->held_force, h->n_elements, r, NULL,
                            {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)},
                            {"reaction", BRC_BUF(reaction)}));
     }
@@ -79,7 +83,7 @@ static brc_status face_forces(brc_simulation *s, const brc_force_request *r)
     for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
         brc_traction_load *t = s->loads.tractions + i;
         const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
-        BRC_TRY(BRC_RUN_ON(s->pass.traction_force, t->n, r, t, {"factor", BRC_STATE(factor)}));
+        BRC_TRY(BRC_RUN_ON(own->traction_force, t->n, r, t, {"factor", BRC_STATE(factor)}));
         if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
     }
     return BRC_OK;
@@ -88,6 +92,7 @@ static brc_status face_forces(brc_simulation *s, const brc_force_request *r)
 /* H, P and B. */
 static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const extent *x)
 {
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
     const brc_ring_list *flux_list = x->whole_flux ? NULL : x->list;
     BRC_TRY(gradients(s, r, x));
     BRC_TRY(brc_closed_faces_press(s, r));
@@ -95,20 +100,21 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
     if (r->rings && brc_rims_energies_apart(s))
         BRC_TRY(brc_rims_stress(s, r));
     else
-        BRC_TRY(brc_pass_over(s, s->pass.stress, s->pass.stress_listed, x->list, x->stress, r, NULL));
+        BRC_TRY(brc_pass_over(s, own->stress, own->stress_listed, x->list, x->stress, r, NULL));
     BRC_TRY(face_moments(s, r));
     const bool moments = s->loads.on_faces || brc_contact_acts(s, r);
     if (r->rings && brc_rims_add(s, r->rings))
         BRC_TRY(brc_rims_flux(s, r, moments));
     else
-        BRC_TRY(brc_pass_over(s, r->finite ? s->pass.flux : s->pass.flux_linear, s->pass.flux_listed, flux_list,
-                              x->flux, r, BRC_GIVEN({"face_loads", BRC_INT(moments ? 1 : 0)})));
+        BRC_TRY(brc_pass_over(s, r->finite ? own->flux : own->flux_linear, own->flux_listed, flux_list, x->flux, r,
+                              BRC_GIVEN({"face_loads", BRC_INT(moments ? 1 : 0)})));
     BRC_TRY(brc_closed_faces_flux(s, r, flux_list, x->flux));
     return r->homogeneous ? BRC_OK : brc_softening_flux(s, flux_list, x->flux);
 }
 
 brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
 {
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
     const extent x = extent_of(s, r);
     BRC_TRY(fluxes(s, r, &x));
     const brc_ring_list *list = x.whole_flux ? NULL : x.list;
@@ -117,7 +123,7 @@ brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     if (r->finite && !r->homogeneous && !r->rings && brc_dlsm_screens(s))
         BRC_TRY(brc_dlsm_screening_forces(s, r, list, x.force));
     else
-        BRC_TRY(brc_pass_over(s, s->pass.force, s->pass.force_listed, list, x.force, r, NULL));
+        BRC_TRY(brc_pass_over(s, own->force, own->force_listed, list, x.force, r, NULL));
     BRC_TRY(brc_closed_faces_force(s, r, list, x.force));
     if (!r->homogeneous) BRC_TRY(brc_softening_force(s, r->force));
     return face_forces(s, r);
@@ -151,7 +157,8 @@ brc_status brc_dlsm_replace_around(brc_simulation *s, const brc_rings *rings)
 /* Energies of the elements, s->elastic_energy and s->stabilisation_energy, without those of held faces. */
 static brc_status element_energies(brc_simulation *s, const brc_ring_list *list, int ring)
 {
-    BRC_TRY(brc_pass_over(s, s->pass.energy, s->pass.energy_listed, list, ring, NULL, NULL));
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
+    BRC_TRY(brc_pass_over(s, own->energy, own->energy_listed, list, ring, NULL, NULL));
     return brc_softening_energy(s);
 }
 

@@ -6,8 +6,8 @@
 static brc_status deformation(brc_simulation *s, double *out)
 {
     /* B is dead between force evaluations: its buffer takes G */
-    BRC_TRY(BRC_RUN(s->pass.deformation, s->n_groups, {"face_loads", BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0)},
-                    {"deformation", BRC_BUF(s->flux)}));
+    BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->deformation, s->n_groups,
+                    {"face_loads", BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0)}, {"deformation", BRC_BUF(s->flux)}));
     return brc_coeff_from_rows(s, s->flux, out, 9);
 }
 
@@ -82,8 +82,8 @@ brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &arm, 3 * n, "faces"));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, arm, arms, 3 * n));
     BRC_TRY_OR(cleanup, brc_new_state(s, &result, 3 * n, "faces"));
-    BRC_TRY_OR(cleanup, BRC_RUN(s->pass.face_displacement, n, {"element", BRC_BUF(element)}, {"arm", BRC_BUF(arm)},
-                                {"out", BRC_BUF(result)}));
+    BRC_TRY_OR(cleanup, BRC_RUN(brc_dlsm_own_of(s)->face_displacement, n, {"element", BRC_BUF(element)},
+                                {"arm", BRC_BUF(arm)}, {"out", BRC_BUF(result)}));
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     BRC_TRY_OR(cleanup, brc_download(s, result, bytes, out, 3 * n));
     const brc_held_faces *h = &s->loads.held;
@@ -106,17 +106,11 @@ cleanup:
     return status;
 }
 
-double brc_dlsm_floor_bytes(const brc_simulation *s)
+int brc_dlsm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
-    const brc_precision precision = brc_device_get_precision(s->device);
-    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
-    const double half_edges = (double)s->domain->n_half_edges, n = (double)s->domain->n_elements;
-    const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
-    const double pass1 = half_edges * (4 + 3 * coeff) + n * (3 * state + (6 + 9) * coeff);
-    const double pass2 = half_edges * (4 + 6 * coeff) + n * (9 + 1 + 9 + 2 * many) * coeff;
-    const double pass3 =
-        half_edges * (4 + 7 * coeff) + n * ((9 + 9 + 6 + 1 + 9 + (9 + 4) * many) * coeff + 3 * many * state);
-    const double pass4 = half_edges * (4 + 4 * coeff) + n * ((9 + (9 + 1) * many) * coeff + (3 + 3) * state);
-    const double motion = n * (3 + 3 + 3 + 1 + 3 + 3) * state;
-    return pass1 + pass2 + pass3 + pass4 + motion;
+    out[0] = (brc_step_pass){brc_dlsm_own_of(s)->gradient, NULL};
+    out[1] = (brc_step_pass){brc_dlsm_own_of(s)->stress, NULL};
+    out[2] = (brc_step_pass){brc_dlsm_own_of(s)->flux, s->wants.many_materials ? NULL : "displacement"};
+    out[3] = (brc_step_pass){brc_dlsm_own_of(s)->force, NULL};
+    return 4;
 }

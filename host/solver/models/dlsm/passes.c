@@ -1,8 +1,18 @@
 /* Passes of dlsm. */
 #include "dlsm.h"
 
+brc_status brc_dlsm_create(brc_simulation *s)
+{
+    return brc_memory_allocate(s->context, &s->of_model, 1, sizeof(brc_dlsm_own), "model dlsm");
+}
+
+void brc_dlsm_free(brc_simulation *s)
+{
+    brc_memory_free(s->of_model);
+}
+
 /* A broken bond has other rows of its two elements. */
-static brc_status derive_rings(brc_run_passes *p)
+static brc_status derive_rings(brc_dlsm_own *p)
 {
     const brc_pass *const passes[] = {p->gradient, p->stress, p->flux, p->force};
     int ring[4];
@@ -13,7 +23,7 @@ static brc_status derive_rings(brc_run_passes *p)
 
 brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request)
 {
-    brc_run_passes *p = &s->pass;
+    brc_dlsm_own *p = brc_dlsm_own_of(s);
     const bool whole = !s->scene->has_fracture;
     const brc_pass_wanted of_requests[] = {
         {&p->gradient, "dlsm_gradient", NULL, false},
@@ -39,12 +49,12 @@ brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const b
 
 brc_status brc_dlsm_make_face_passes(brc_simulation *s, const brc_face_scopes *in)
 {
-    brc_run_passes *p = &s->pass;
+    brc_dlsm_own *p = brc_dlsm_own_of(s);
     BRC_TRY(BRC_PASSES(s, in->held, BRC_PASS(&p->held_gradient, "held_gradient_pass", "value"),
                        BRC_PASS(&p->held_moment, "held_moment_pass", "value"),
                        BRC_PASS(&p->held_force, "held_force_pass", "value reaction")));
-    BRC_TRY(BRC_PASSES(s, in->held_state, BRC_PASS(&p->held_energy, "held_energy", NULL)));
-    BRC_TRY(BRC_PASSES(s, in->held_load, BRC_PASS(&p->held_prescribe, "held_prescribe", "factor")));
+    BRC_TRY(BRC_PASSES(s, in->held_state, BRC_PASS(in->energy, "held_energy", NULL)));
+    BRC_TRY(BRC_PASSES(s, in->held_load, BRC_PASS(in->prescribe, "held_prescribe", "factor")));
     return BRC_PASSES(s, in->traction, BRC_PASS(&p->traction_moment, "traction_moment_pass", "factor"),
                       BRC_PASS(&p->traction_force, "traction_force_pass", "factor"));
 }

@@ -8,9 +8,9 @@ brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
     if (s->fracture)
         BRC_TRY(brc_published_breaks_strains(s, r));
     else
-        BRC_TRY(brc_pass_run_on(s->pass.published_strain, s->n_groups, r, NULL, NULL));
+        BRC_TRY(brc_pass_run_on(brc_published_own_of(s)->strain, s->n_groups, r, NULL, NULL));
     if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
-    return brc_pass_over(s, s->pass.published_force, s->pass.published_force_listed, list, 2, r, NULL);
+    return brc_pass_over(s, brc_published_own_of(s)->force, brc_published_own_of(s)->force_listed, list, 2, r, NULL);
 }
 
 brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r)
@@ -19,7 +19,7 @@ brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r
     for (int32_t i = 0; stage && i < s->loads.n_tractions; ++i) {
         brc_traction_load *t = s->loads.tractions + i;
         const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
-        BRC_TRY(BRC_RUN_ON(s->pass.traction_turned, t->n, r, t, {"factor", BRC_STATE(factor)}));
+        BRC_TRY(BRC_RUN_ON(brc_published_own_of(s)->traction, t->n, r, t, {"factor", BRC_STATE(factor)}));
         if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
     }
     return BRC_OK;
@@ -38,7 +38,8 @@ brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *ring
 /* Energies of the elements, s->elastic_energy. */
 static brc_status element_energies(brc_simulation *s, const brc_ring_list *list, int ring)
 {
-    return brc_pass_over(s, s->pass.published_energy, s->pass.published_energy_listed, list, ring, NULL, NULL);
+    return brc_pass_over(s, brc_published_own_of(s)->energy, brc_published_own_of(s)->energy_listed, list, ring, NULL,
+                         NULL);
 }
 
 /* Rings 0 and 1 have other strains. */

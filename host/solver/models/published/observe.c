@@ -47,17 +47,9 @@ cleanup:
     return status;
 }
 
-double brc_published_floor_bytes(const brc_simulation *s)
+int brc_published_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
-    const brc_precision precision = brc_device_get_precision(s->device);
-    const double state = brc_precision_state_bytes(precision), coeff = brc_precision_coeff_bytes(precision);
-    const double half_edges = (double)s->domain->n_half_edges, n = (double)s->domain->n_elements;
-    const double many = brc_device_has_many_materials(s->device) ? 1 : 0;
-    /* strain pass: neighbour, R (S with area weights); u, q, A^-1 read, strain written */
-    const double strain =
-        half_edges * (4 + (3 + (s->scene->model.area_weights ? 1 : 0)) * coeff) + n * (7 * state + 12 * coeff);
-    /* force pass: neighbour, R, S; u, q, strain read, f and t written */
-    const double force = half_edges * (4 + 4 * coeff) + n * (7 * state + (6 + 3 * many) * coeff + 6 * state);
-    /* motion: f, v, u, m and t, w, q, I read; v, u, w, q written */
-    return strain + force + n * (3 + 3 + 3 + 1 + 3 + 3 + 4 + 1 + 3 + 3 + 3 + 4) * state;
+    out[0] = (brc_step_pass){brc_published_own_of(s)->strain, s->scene->model.area_weights ? NULL : "area"};
+    out[1] = (brc_step_pass){brc_published_own_of(s)->force, NULL};
+    return 2;
 }

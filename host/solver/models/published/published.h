@@ -5,7 +5,19 @@
 #include "../../core/rings.h"
 #include "../../core/simulation_internal.h"
 
+/* What a run of it keeps. */
+typedef struct brc_published_own {
+    brc_pass *strain, *force, *energy, *traction;
+    brc_pass *force_listed, *energy_listed; /* only with fracture */
+} brc_published_own;
+static inline brc_published_own *brc_published_own_of(const brc_simulation *s)
+{
+    return s->of_model;
+}
+
 /* ---- passes.c ---- */
+brc_status brc_published_create(brc_simulation *s);
+void brc_published_free(brc_simulation *s);
 brc_status brc_published_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);
 brc_status brc_published_make_face_passes(brc_simulation *s, const brc_face_scopes *in);
 
@@ -40,6 +52,6 @@ brc_status brc_published_upload(brc_simulation *s);
 brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy);
 /* A face moves rigidly with its element. */
 brc_status brc_published_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out);
-double brc_published_floor_bytes(const brc_simulation *s);
+int brc_published_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES]);
 
 #endif
