@@ -94,8 +94,8 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
  * is below screen * limit of their weakest bond do not look; shear_least: norm below which no face slides [Pa].
  * found [n]. */
 KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, int shears, coeff slope,
-                       coeff shear_least, OWN(int) row_start, OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area,
-                       OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                       coeff shear_least, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, GATHER(int) n_open,
+                       OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
                        GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
                        GATHER(coeff) flux, GATHER(coeff) bond_part, OWN(coeff) least, OWN(coeff) limit,
                        OWN(coeff) shear_limit, PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack, PUT(state) found)
@@ -107,12 +107,12 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
             soft_looking(who, h, p, screen * share, shears ? shear_least : CELLS_NEVER, n_open, least);
         const lane_sym3 own = soft_present_stress(h, p);
         const dlsm_end end = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
+        if (which.looking) members_later(who, gradient, 9, ahead), members_later(who, stress, 9, ahead);
+        if (which.looking) members_later(who, flux, 9, ahead);
         int count[W];
         for (int l = 0; l < W; ++l) count[l] = 0;
         for (int slot = who.begin; which.looking && slot < who.end; ++slot) {
             const lane_int j = members_neighbour(who, neighbour, slot);
-            members_gathers_ahead9(who, gradient, neighbour, slot);
-            members_gathers_ahead9(who, stress, neighbour, slot);
             members_ahead1(who, limit, slot);
             const dlsm_pull pull = dlsm_pull_at(who, slot, end, neighbour, area, ratio, displacement, flux, bond_part,
                                                 one_plus_tau, modulus);
