@@ -187,6 +187,20 @@ KERNEL void soft_coast(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
     }
 }
 
+/* A face is open wider than ever, by w and v together (both): its cohesion has worn, and its crack leans as it opens.
+ * edge: |v|^2. */
+LAW void soft_wear(SCATTER(coeff) crack, brc_size entry, brc_size other, soft_vector now, soft_vector normal,
+                   coeff edge, coeff both, coeff steepest)
+{
+    const coeff across = soft_dot(now, normal) / SQRT(soft_dot(normal, normal));
+    const coeff tilt = SOFT_IS_SLIDING(entry)
+                           ? REAL(1)
+                           : soft_tilt(SOFT_NUMBER(entry, COSINE),
+                                       (across < 0 ? SQRT(edge) : SQRT(across * across + edge)) / both, steepest);
+    SOFT_NUMBER(entry, WIDEST) = both, SOFT_NUMBER(other, WIDEST) = both;
+    SOFT_NUMBER(entry, TILT) = tilt, SOFT_NUMBER(other, TILT) = tilt;
+}
+
 /* The openings of the step whose motion has just been done, by the fluxes at the new place and the old openings: each
  * goes where its cohesion balances what the bond would pull with, by the stiffness of the two cells, along their axes
  * and across; so a sweep over all faces at once comes nearer to the balance of all. is_last: of the sweeps of this
@@ -258,15 +272,7 @@ KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff f
                 soft_add(soft_part(crack, entry, SOFT_SHIFT), REAL(1), soft_add(now, REAL(-1), before));
             soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
             soft_put(crack, entry, SOFT_SHIFT, added), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), added));
-            if (is_last && both > wide) {
-                const coeff across = soft_dot(now, normal) / SQRT(soft_dot(normal, normal));
-                const coeff tilt =
-                    slides ? REAL(1)
-                           : soft_tilt(SOFT_NUMBER(entry, COSINE),
-                                       (across < 0 ? SQRT(edge) : SQRT(across * across + edge)) / both, steepest);
-                SOFT_NUMBER(entry, WIDEST) = both, SOFT_NUMBER(other, WIDEST) = both;
-                SOFT_NUMBER(entry, TILT) = tilt, SOFT_NUMBER(other, TILT) = tilt;
-            }
+            if (is_last && both > wide) soft_wear(crack, entry, other, now, normal, edge, both, steepest);
         }
     }
 }
