@@ -49,6 +49,8 @@ typedef struct brc_held_faces {
     brc_buffer *value, *zero_value, *reaction, *last, *last_reaction, *work, *scratch, *energy;
     int32_t n_loads;
     brc_held_load *loads;
+    double *left; /* [domain n_free_faces][3] where the stage before left the faces it held, NAN elsewhere [m]; host;
+                     NULL: none. Only while a stage is entered. */
 } brc_held_faces;
 typedef struct brc_traction_load {
     int32_t load;

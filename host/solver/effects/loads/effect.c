@@ -35,20 +35,26 @@ static bool turned(const brc_wants *w)
 
 static brc_status enter(brc_simulation *s, const brc_occasion *now)
 {
-    return brc_loads_create(s, now->stage, &s->loads);
+    const brc_status status = brc_loads_create(s, now->stage, &s->loads);
+    brc_memory_free(s->loads.held.left);
+    s->loads.held.left = NULL;
+    return status;
 }
-/* What they did is banked. */
+/* What they did is banked, and where faces were held is left to the next stage. */
 static brc_status leave(brc_simulation *s)
 {
-    double work;
+    double work, *left;
     BRC_TRY(brc_loads_work(s, &work));
     s->work_before += work;
+    BRC_TRY(brc_held_faces_places(s, &left));
     brc_loads_free(&s->loads);
+    s->loads.held.left = left;
     return BRC_OK;
 }
 extern const brc_effect brc_stage_loads_effect;
 static void release(brc_simulation *s)
 {
+    brc_memory_free(s->loads.held.left);
     brc_loads_free(&s->loads);
     brc_memory_free(*brc_effect_own(s, &brc_stage_loads_effect));
 }

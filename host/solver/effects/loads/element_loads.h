@@ -14,6 +14,8 @@ int brc_load_compare_members(const void *left, const void *right);
 /* Components as bits 1 2 4 into [n][3] of 0 and 1. */
 brc_status brc_load_upload_components(brc_simulation *s, brc_buffer *out, const int32_t *bits, int32_t n);
 /* The faces that the stage holds. BRC_BAD_INPUT: models whose elements have no faces that move. */
+/* Where the held faces stand, as brc_held_faces.left; *out: NULL where none is held, else the caller's. */
+brc_status brc_held_faces_places(brc_simulation *s, double **out);
 brc_status brc_held_faces_create(brc_simulation *s, const brc_stage *stage, brc_held_faces *held);
 /* Elements of a load's set (of a face set: the owners of its faces), by storage row, each once; owned by the caller. */
 brc_status brc_load_members(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_load_member **out,

@@ -86,8 +86,45 @@ static void group(const brc_simulation *s, brc_held_faces *held, held_arrays *a)
     a->face_start[held->n_elements] = n;
 }
 
-/* Entries of one load; velocity loads start from where the face is now, which holds only while this stage has no values
- * yet. */
+brc_status brc_held_faces_places(brc_simulation *s, double **out)
+{
+    const brc_held_faces *h = &s->loads.held;
+    const int64_t n = s->domain->n_free_faces;
+    double *value = NULL, *place = NULL;
+    brc_status status = BRC_OK;
+    *out = NULL;
+    if (h->n_faces == 0 || !h->value) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, 3 * (int64_t)h->n_faces, "held faces"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "held faces"));
+    BRC_TRY_OR(cleanup, brc_download(s, h->value, brc_precision_state_bytes(brc_device_get_precision(s->device)), value,
+                                     3 * (int64_t)h->n_faces));
+    for (int64_t f = 0; f < n; ++f) {
+        const int32_t at = h->index_of_free_face[f];
+        for (int c = 0; c < 3; ++c)
+            place[3 * f + c] = at >= 0 && h->component_of_face[at] >> c & 1 ? value[3 * (int64_t)at + c] : NAN;
+    }
+    *out = place;
+    place = NULL;
+cleanup:
+    brc_memory_free(value);
+    brc_memory_free(place);
+    return status;
+}
+
+/* Where the faces of a load are as its stage begins: where they were held, else where their cells put them, which holds
+ * only while this stage has no values yet. */
+static brc_status find_places(brc_simulation *s, const brc_set *set, const brc_held_faces *held, double *out)
+{
+    BRC_TRY(brc_simulation_face_displacement(s, set->n_members, set->members, out));
+    for (int64_t m = 0; held->left && m < set->n_members; ++m)
+        for (int c = 0; c < 3; ++c) {
+            const double left = held->left[3 * (int64_t)set->members[m] + c];
+            if (!isnan(left)) out[3 * m + c] = left;
+        }
+    return BRC_OK;
+}
+
+/* Entries of one load; velocity loads start from where the face is now. */
 static brc_status create_load(brc_simulation *s, const brc_load *load, const brc_set *set, const brc_held_faces *held,
                               brc_held_load *entry)
 {
@@ -100,8 +137,7 @@ static brc_status create_load(brc_simulation *s, const brc_load *load, const brc
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &face, count, "held load"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, count, "held load"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &direction, 3 * count, "held load"));
-    if (load->kind == BRC_LOAD_FACE_VELOCITY)
-        BRC_TRY_OR(cleanup, brc_simulation_face_displacement(s, count, set->members, now));
+    if (load->kind == BRC_LOAD_FACE_VELOCITY) BRC_TRY_OR(cleanup, find_places(s, set, held, now));
     for (int64_t m = 0; m < count; ++m) {
         face[m] = held->index_of_free_face[set->members[m]];
         flag[m] = brc_load_components(load);
