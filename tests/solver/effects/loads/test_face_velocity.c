@@ -26,7 +26,7 @@ static void faces_go_on_from_where_they_are(void **state)
 }
 
 /* A block whose end is pushed aside between held faces, where stress is uneven and no face stands where its cell puts
- * it (with that in place of where it was held the force fell to less than half): force of the end, of one stage or two.
+ * it: force of the end, of one stage or two.
  */
 #define PUSHED                                                                                                         \
     "  - name: push\n    solver: {static: {tolerance: 1e-8}}\n    loads:\n"                                            \
