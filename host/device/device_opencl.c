@@ -13,8 +13,8 @@
 /* Work-items a group; docs/notebook/devices.md has the measurements. Never left to the driver: PoCL's own choice
  * crashed with wide types. */
 enum { GROUP_CPU = 64, FEWEST_OF_GROUP = 32 };
-/* What kernels put aside (kernels/portable.h) is up to 18 numbers of each work-item; GPUs have 48 KB for a group. */
-enum { MOST_WITH_ASIDE = 256 };
+/* What kernels of one element a work-item put aside of it in local memory (kernels/portable.h), numbers at most. */
+enum { MOST_ASIDE = 18 };
 /* Elements a slice of the storage holds on a CPU: as many as a work-item, and at least these. */
 enum { SLICE_CPU = 8 };
 /* Long batches reach the device while they are still being enqueued. */
@@ -53,9 +53,19 @@ static void release_inside(opencl_inside *inside)
     brc_memory_free(inside);
 }
 
+/* Work-items a group at most, by the local memory that kernels take. */
+static size_t most_in_group(const brc_device *device, cl_device_id id)
+{
+    cl_ulong local = 0;
+    if (device->lanes != 1) return 1024;
+    if (clGetDeviceInfo(id, CL_DEVICE_LOCAL_MEM_SIZE, sizeof local, &local, NULL) != CL_SUCCESS) return 32;
+    const size_t most = (size_t)local / (size_t)(MOST_ASIDE * brc_precision_coeff_bytes(device->precision));
+    return most < 1024 ? most : 1024;
+}
+
 /* W, C and work-items a group: those of a GPU or of a CPU by the kind of the device, or as BRECCIA_OPENCL_LAYOUT says
  * (tests run the layout of a GPU on PoCL); the group also as BRECCIA_OPENCL_GROUP says (to tune for a new device). */
-static brc_status choose_layout(brc_device *device, int lanes, size_t *group)
+static brc_status choose_layout(brc_device *device, cl_device_id id, int lanes, size_t *group)
 {
     const char *const layout = getenv("BRECCIA_OPENCL_LAYOUT"), *const asked = getenv("BRECCIA_OPENCL_GROUP");
     bool gpu = device->info.is_gpu;
@@ -71,13 +81,15 @@ static brc_status choose_layout(brc_device *device, int lanes, size_t *group)
     device->lanes = lanes;
     device->slice = gpu ? BRC_GPU_SLICE : lanes > SLICE_CPU ? lanes : SLICE_CPU;
     *group = gpu ? BRC_GPU_GROUP : GROUP_CPU;
+    const size_t most = most_in_group(device, id);
+    while (*group > most)
+        *group /= 2;
     if (!asked || !asked[0]) return BRC_OK;
     char *end;
     const long number = strtol(asked, &end, 10);
-    const int most = lanes == 1 ? MOST_WITH_ASIDE : 1024;
-    if (*end || number < 1 || number > most)
+    if (*end || number < 1 || (size_t)number > most)
         return BRC_FAIL(device->context, BRC_BAD_INPUT, "BRECCIA_OPENCL_GROUP is '%.32s': expected 1 to %d work-items",
-                        asked, most);
+                        asked, (int)most);
     *group = (size_t)number;
     return BRC_OK;
 }
@@ -94,7 +106,7 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
         goto cleanup;
     }
     inside->id = devices[device->info.index];
-    BRC_TRY_OR(cleanup, choose_layout(device, request->lanes, &inside->group));
+    BRC_TRY_OR(cleanup, choose_layout(device, inside->id, request->lanes, &inside->group));
     inside->context = clCreateContext(NULL, 1, &inside->id, NULL, NULL, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a context"));
     BRC_TRY_OR(cleanup, brc_opencl_profile_create(device->context, &inside->profile));

@@ -1,6 +1,6 @@
 /* Constant drag: every element that moves loses the same speed in the same time, whatever its mass, until it rests. */
 #include "../core/simulation_internal.h"
-#include "../run/state_store.h"
+#include "../core/state_store.h"
 
 typedef struct drag {
     brc_pass *slow;

@@ -50,8 +50,8 @@ static void a_pass_has_one_list_and_a_name_for_each_of_its_readings(void **unuse
     brc_kernel_signature whole, listed;
     brc_kernel_signature_read("dlsm_gradient", &whole);
     brc_kernel_signature_read("dlsm_gradient_listed", &listed);
-    assert_string_equal(whole.kinds, "ibbbbbb");
-    assert_string_equal(listed.kinds, "iibbbbbbb");
+    assert_string_equal(whole.kinds, "ibbbbbbb");
+    assert_string_equal(listed.kinds, "iibbbbbbbb");
     assert_int_equal(strncmp(listed.name[1], "n,", 2), 0);
     assert_int_equal(strncmp(listed.name[2], "list", 4), 0);
     for (int k = 1; k < whole.n; ++k) {

@@ -22,8 +22,8 @@ brc_status brc_contact_restart(brc_simulation *s);
 brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger);
 /* Steps until the next look at how far things moved ... */
 int64_t brc_contact_next_look(const brc_simulation *s);
-/* ... and until the first that cannot be put off to the end of a stretch of steps (../fracture/ahead.h), as the looks before it
- * found something; INT64_MAX without contact. */
+/* ... and until the first that cannot be put off to the end of a stretch of steps (../fracture/ahead.h), as the looks
+ * before it found something; INT64_MAX without contact. */
 int64_t brc_contact_quiet_steps(const brc_simulation *s);
 /* A stretch, in which looks are put down on the device; *stands: each would have found nothing to do. */
 void brc_contact_begin_stretch(brc_simulation *s);

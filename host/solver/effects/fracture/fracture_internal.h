@@ -32,7 +32,7 @@ struct brc_breaking {
         *beam_softening;                   /* beams that open against cohesion (beam_softening.c); NULL: none does */
     struct brc_beam_closure *beam_closure; /* broken beams that bear (beam_closure.c); NULL: none does */
     struct brc_cell_breaks
-        *cells;              /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
+        *cells; /* models of cells (cell_breaks.c), which use the arrays of entries and `lost`, `broken` */
     int n_spans;
     brc_break_span *spans;
     double implied_energy; /* cells: what a crack costs per area by strength and cells, mean of sigma_f^2 L / (2 E) over
