@@ -1,7 +1,8 @@
 /* What lanes rule out before the stress of a bond is looked at (softening_screen.cl), against that look itself
  * (softening_onset.cl). One lane, double. */
 #include "one_lane.h"
-#pragma GCC diagnostic ignored "-Wunused-parameter" /* as each kernel has those of its passes */
+#pragma GCC diagnostic ignored "-Wunused-parameter" /* kernels have those of all their passes, of any lanes */
+#pragma GCC diagnostic ignored "-Wunused-variable"
 #include "../../kernels/kernels.h"
 
 /* Two cells with the stresses and gradients of these, and a bond between them with any force. */
