@@ -49,7 +49,7 @@ static bool due(const brc_simulation *s)
 static brc_status slow(brc_simulation *s, const brc_occasion *now)
 {
     const double slower = brc_current_stage(s)->constant_drag * now->dt;
-    BRC_TRY(brc_loads_zero_imposed(s, s->velocity));
+    BRC_TRY(brc_constrain(s, s->velocity, NULL));
     return BRC_RUN(own_of(s)->slow, s->layout->n_rows, {"slower", BRC_STATE(slower)});
 }
 

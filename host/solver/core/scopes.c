@@ -21,7 +21,7 @@ static const brc_value_row run_values[] = {
     {"area_weights", BRC_VALUE_BOOL, OF_RUN(constant.area_weights)},
     {"finite", BRC_VALUE_BOOL, OF_RUN(constant.finite)},
     {"turns", BRC_VALUE_BOOL, OF_RUN(constant.turns)},
-    {"face_loads", BRC_VALUE_BOOL, OF_RUN(loads.on_faces)},
+    {"face_loads", BRC_VALUE_BOOL, OF_RUN(face_loads)},
 };
 
 brc_scope brc_scope_of_run(const brc_simulation *s)

@@ -35,63 +35,6 @@ typedef struct brc_beam {
     double axial, bend, twist; /* E S [N], 2 E I [N m^2], G J [N m^2] */
 } brc_beam;
 
-/* Face loads of a stage: held faces grouped by element, one entry list per load (loads.c). */
-typedef struct brc_held_load {
-    int32_t load; /* index into the stage's loads */
-    int32_t n;
-    brc_buffer *face, *component, *base, *direction; /* [n], [n][3] ... */
-} brc_held_load;
-typedef struct brc_held_faces {
-    int32_t n_elements, n_faces;
-    int32_t *index_of_free_face; /* [domain n_free_faces] -1: not held; host */
-    int32_t *component_of_face;  /* [n_faces] bits 1 2 4: held components; host */
-    brc_buffer *element, *place, *face_start, *area, *arm, *held, *spring;
-    brc_buffer *value, *zero_value, *reaction, *last, *last_reaction, *work, *scratch, *energy;
-    int32_t n_loads;
-    brc_held_load *loads;
-    double *left; /* [domain n_free_faces][3] where the stage before left the faces it held, NAN elsewhere [m]; host;
-                     NULL: none. Only while a stage is entered. */
-} brc_held_faces;
-typedef struct brc_traction_load {
-    int32_t load;
-    int32_t n;
-    double last_factor;
-    brc_buffer *element, *place, *total, *moment, *last_path, *work;
-} brc_traction_load;
-typedef struct brc_imposed_load {
-    int32_t load; /* -1: elements without bonds, held still (model.keep_isolated) */
-    int32_t n;
-    double last_rate;
-    int32_t *element_id; /* [n] host */
-    int32_t component_bits;
-    brc_buffer *element, *component, *base, *direction, *reaction, *last, *last_reaction, *work;
-} brc_imposed_load;
-typedef struct brc_push_load { /* dead forces on elements (element_loads.c) */
-    int32_t load;
-    int32_t n;
-    double factor, last_factor; /* now, and at the last booking */
-    int32_t *element_id;        /* [n] host */
-    double *total_of;           /* [n][3] forces at factor 1 [N]; host */
-    brc_buffer *element, *total, *last_path, *work;
-} brc_push_load;
-typedef struct brc_turn_load { /* prescribed rotations of elements (element_loads.c) */
-    int32_t load;
-    int32_t n;
-    double turned;                 /* factor that the orientations are at */
-    double last_factor, last_rate; /* at the last booking */
-    int32_t *element_id;           /* [n] host */
-    brc_buffer *element, *component, *direction, *reaction, *last_reaction, *work;
-} brc_turn_load;
-typedef struct brc_loads {
-    brc_held_faces held;
-    int32_t n_tractions, n_imposed, n_pushes, n_turns;
-    brc_push_load *pushes;
-    brc_turn_load *turns;
-    brc_traction_load *tractions;
-    brc_imposed_load *imposed;
-    bool on_faces; /* some face is held or bears a traction */
-} brc_loads;
-
 /* Passes of every run; of rotations only where elements turn. */
 typedef struct brc_run_passes {
     brc_pass *advance, *advance_rotation, *advance_tchamwa, *numerical_close;
@@ -185,7 +128,8 @@ struct brc_simulation {
     char governed_by[64]; /* of the time step, where it came from a store */
     brc_stage_progress progress;
     struct brc_static_run *static_run; /* of a static stage that runs; else NULL */
-    brc_loads loads;
+    struct brc_loads *loads;           /* of the stage (effects/loads) */
+    bool face_loads;                   /* some face is held or bears a traction in this stage, as kernels ask */
     double work_before, damping_before, numerical_before; /* of earlier stages */
     double initial_energy, peak_elastic, peak_kinetic;
     double total_before_stage; /* energy when the stage was entered [J] */
@@ -294,37 +238,6 @@ brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out);
 /* Rigorous lower bound of the critical time step [s]: 2 / sqrt(2 max lambda(M_i^-1 D_i)) over the elements' diagonal
  * blocks (docs/notebook/beams.md). */
 brc_status brc_beams_node_bound(brc_simulation *s, double *out);
-
-/* ---- loads.c: one stage's loads ---- */
-brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out);
-void brc_loads_free(brc_loads *loads);
-/* The refusal of a load that prescribes what an earlier one of the stage does, for n elements: BRC_BAD_INPUT. */
-brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, const brc_load *load, int64_t n);
-/* Put held faces and imposed elements where they are at time t of the stage (static: load factor). */
-brc_status brc_loads_prescribe(brc_simulation *s, double t);
-/* Velocities of imposed elements at t. */
-brc_status brc_loads_impose_velocity(brc_simulation *s, double t);
-/* Reactions of imposed elements, and their work; their forces are zero then. */
-brc_status brc_imposed_book(brc_simulation *s, const struct brc_force_request *r);
-/* Load of an imposed list. */
-const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed);
-/* a(t), or its integral from 0 to t for velocity loads; rate: its derivative. */
-double brc_load_factor(const brc_load *load, double t, bool is_static);
-double brc_load_rate(const brc_load *load, double t);
-/* Integral of a table from 0 to t [s]. */
-double brc_table_integral(const brc_table *table, double t);
-/* Zero the imposed components of a vector; of one of rotations or torques. */
-brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector);
-brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector);
-/* The set of a load; NULL with a sentence in *status when it is not there, empty, or of elements where faces are
- * needed. */
-const brc_set *brc_load_find_set(brc_simulation *s, const brc_stage *stage, const brc_load *load, brc_set_kind kind,
-                                 brc_status *status);
-/* Whether it prescribes the motion of faces; whether it is a force on faces. */
-bool brc_load_holds_faces(const brc_load *load);
-bool brc_load_pulls_faces(const brc_load *load);
-/* Work of all loads of this stage so far [J]. */
-brc_status brc_loads_work(brc_simulation *s, double *out);
 
 /* ---- force.c: one evaluation, either model ---- */
 typedef enum brc_booking { BRC_BOOK_NOTHING, BRC_BOOK_WORK, BRC_BOOK_START } brc_booking; /* `book` of the kernels */

@@ -4,6 +4,7 @@
  * there the dense problem is the unsymmetric one and the modes are its eigenvalues of smallest magnitude. Rigid motions
  * are in the first block, so they converge at once and are left out of the result. */
 #include "../../base/random.h"
+#include "../effects/loads/loads.h"
 #include "multigrid/multigrid.h"
 #include "ritz.h"
 #include <math.h>
@@ -69,6 +70,14 @@ static brc_status prepare_preconditioner(mode_space *t)
     return brc_geometry_precondition_blocks(s, t->blocks);
 }
 
+/* Displacements of elements; held faces are in the operator. */
+static void fix(void *self, const brc_prescribed *one)
+{
+    mode_space *t = self;
+    for (int c = 0; one->face < 0 && c < 3; ++c)
+        if (one->motion >> c & 1) t->fixed[3 * (int64_t)t->s->layout->row_of_element[one->element] + c] = 1;
+}
+
 static brc_status allocate(mode_space *t)
 {
     brc_simulation *s = t->s;
@@ -85,11 +94,7 @@ static brc_status allocate(mode_space *t)
         t->mass[i] = mass[i / 3];
         t->fixed[i] = s->layout->element_of_row[i / 3] < 0;
     }
-    for (int32_t l = 0; l < s->loads.n_imposed; ++l)
-        for (int32_t k = 0; k < s->loads.imposed[l].n; ++k)
-            for (int c = 0; c < 3; ++c)
-                if (s->loads.imposed[l].component_bits >> c & 1)
-                    t->fixed[3 * (int64_t)s->layout->row_of_element[s->loads.imposed[l].element_id[k]] + c] = 1;
+    brc_loads_each_prescribed(s, fix, t);
     return BRC_OK;
 }
 

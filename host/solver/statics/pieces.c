@@ -1,5 +1,6 @@
 #include "pieces.h"
 #include "../effects/fracture/fracture_internal.h"
+#include "../effects/loads/loads.h"
 
 /* Elements by piece, each piece's in the order of their ids. */
 static brc_status sort_elements(brc_simulation *s, const int32_t *piece, brc_pieces *p)
@@ -25,29 +26,29 @@ static brc_status sort_elements(brc_simulation *s, const int32_t *piece, brc_pie
     return BRC_OK;
 }
 
+typedef struct piece_holds {
+    const brc_domain *domain;
+    const int32_t *piece;
+    brc_pieces *p;
+} piece_holds;
+
+static void hold(void *self, const brc_prescribed *one)
+{
+    const piece_holds *h = self;
+    const brc_domain *d = h->domain;
+    const double *x =
+        one->face < 0 ? d->position + 3 * (int64_t)one->element : d->free_centroid + 3 * (int64_t)one->face;
+    for (int c = 0; one->by_load && c < 3; ++c) {
+        if (one->motion >> c & 1) brc_free_motions_hold(&h->p->free[h->piece[one->element]], x, c);
+        if (one->rotation >> c & 1) brc_free_motions_clamp(&h->p->free[h->piece[one->element]], c);
+    }
+}
+
 static brc_status find_free(brc_simulation *s, const int32_t *piece, brc_pieces *p)
 {
-    const double *place = s->domain->position;
     for (int64_t i = 0; i < p->n; ++i)
         brc_free_motions_begin(&p->free[i], p->start[i + 1] - p->start[i], p->place + 3 * p->start[i]);
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
-        for (int32_t k = 0; s->loads.imposed[i].load >= 0 && k < s->loads.imposed[i].n; ++k)
-            for (int c = 0; c < 3; ++c) {
-                const int32_t e = s->loads.imposed[i].element_id[k];
-                if (s->loads.imposed[i].component_bits >> c & 1)
-                    brc_free_motions_hold(&p->free[piece[e]], place + 3 * (int64_t)e, c);
-            }
-    for (int64_t f = 0; s->loads.held.n_faces > 0 && f < s->domain->n_free_faces; ++f) {
-        const int32_t at = s->loads.held.index_of_free_face[f];
-        for (int c = 0; at >= 0 && c < 3; ++c)
-            if (s->loads.held.component_of_face[at] >> c & 1)
-                brc_free_motions_hold(&p->free[piece[s->domain->free_element[f]]], s->domain->free_centroid + 3 * f, c);
-    }
-    for (int32_t i = 0; i < s->loads.n_turns; ++i)
-        for (int32_t k = 0; k < s->loads.turns[i].n; ++k)
-            for (int c = 0; c < 3; ++c)
-                if (brc_current_stage(s)->loads[s->loads.turns[i].load].component[c])
-                    brc_free_motions_clamp(&p->free[piece[s->loads.turns[i].element_id[k]]], c);
+    brc_loads_each_prescribed(s, hold, &(piece_holds){s->domain, piece, p});
     for (int64_t i = 0; i < p->n; ++i) {
         if (!brc_free_motions_find(&p->free[i]))
             return BRC_FAIL(s->context, BRC_INTERNAL, "the free motions of the stage were not found");

@@ -4,12 +4,19 @@
 #include "../../base/random.h"
 #include "statics.h"
 #include "../effects/fracture/fracture_internal.h"
+#include "../effects/loads/loads.h"
 #include "multigrid/multigrid.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 enum { MOST_CORRECTIONS = 60 };
+
+/* Elements that a load moves or turns; bodies of beams have no held faces. */
+static void note_moved(void *self, const brc_prescribed *one)
+{
+    *(bool *)self |= one->by_load;
+}
 
 /* A body of beams that no load holds: what would move it as a whole cannot be balanced and leaves the residual. Dead
  * loads that balance do so to first order only, since they act where the elements went. More than `rigid_most` of the
@@ -20,9 +27,9 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
     const int64_t n = s->domain->n_elements;
     double *place = NULL, *torque = NULL, *force = NULL, rigid, square = 0;
     brc_status status = BRC_OK;
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
-        if (s->loads.imposed[i].load >= 0) return BRC_OK;
-    if (!brc_solves_rotations(s->model) || s->loads.n_turns > 0) return BRC_OK;
+    bool moved = false;
+    brc_loads_each_prescribed(s, note_moved, &moved);
+    if (moved || !brc_solves_rotations(s->model)) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));

@@ -1,6 +1,7 @@
 /* Quasi-static fracture: where every event happens, what it costs, when it ends. */
 #include "../effects/fracture/fracture_case.h"
 #include "../../../host/base/memory.h"
+#include "../../../host/solver/effects/loads/loads.h"
 #include "../../../host/solver/run/stage_end.h"
 #include <math.h>
 #include <stdlib.h>
@@ -24,17 +25,19 @@ typedef struct curve {
     int end_at; /* sample at which the observer ends the stage; 0: never */
 } curve;
 
+static void take_out(void *self, const brc_prescribed *one)
+{
+    for (int c = 0; one->face < 0 && c < 3; ++c)
+        if (one->motion >> c & 1) ((double *)self)[3 * (int64_t)one->element + c] = 0;
+}
+
 /* Largest force on an element that no motion is prescribed for, over the reaction of the wall: 0 in equilibrium. */
 static double free_force(brc_simulation *s)
 {
     const int64_t n = 3 * s->domain->n_elements;
     double *force = calloc((size_t)n, sizeof *force), most = 0, reaction[3];
     assert_int_equal(brc_simulation_force(s, force), BRC_OK);
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
-        for (int32_t k = 0; k < s->loads.imposed[i].n; ++k)
-            for (int c = 0; c < 3; ++c)
-                if (s->loads.imposed[i].component_bits >> c & 1)
-                    force[3 * (int64_t)s->loads.imposed[i].element_id[k] + c] = 0;
+    brc_loads_each_prescribed(s, take_out, force);
     for (int64_t k = 0; k < n; ++k)
         most = fmax(most, fabs(force[k]));
     assert_int_equal(brc_simulation_reaction(s, brc_domain_find_set(s->domain, "x-"), reaction), BRC_OK);

@@ -1,5 +1,6 @@
 /* Cells of dlsm that have lost all their bonds, as rigid bodies (contact_rigid.cl). */
 #include "../fracture/cell_breaks_internal.h"
+#include "../loads/loads.h"
 #include "contact_internal.h"
 #include "../../core/loaded_faces.h"
 

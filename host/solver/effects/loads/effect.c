@@ -1,7 +1,6 @@
 /* Loads of stages as effects. Elements without bonds may be held where no load is asked for. */
 #include "../effect.h"
-#include "element_loads.h"
-#include "load_fields.h"
+#include "loads_internal.h"
 
 static bool some_load(const brc_wants *w, brc_load_kind a, brc_load_kind b)
 {
@@ -35,9 +34,9 @@ static bool turned(const brc_wants *w)
 
 static brc_status enter(brc_simulation *s, const brc_occasion *now)
 {
-    const brc_status status = brc_loads_create(s, now->stage, &s->loads);
-    brc_memory_free(s->loads.held.left);
-    s->loads.held.left = NULL;
+    const brc_status status = brc_loads_create(s, now->stage, s->loads);
+    brc_memory_free(s->loads->held.left);
+    s->loads->held.left = NULL;
     return status;
 }
 /* What they did is banked, and where faces were held is left to the next stage. */
@@ -47,16 +46,24 @@ static brc_status leave(brc_simulation *s)
     BRC_TRY(brc_loads_work(s, &work));
     s->work_before += work;
     BRC_TRY(brc_held_faces_places(s, &left));
-    brc_loads_free(&s->loads);
-    s->loads.held.left = left;
+    brc_loads_free(s->loads);
+    s->face_loads = false;
+    s->loads->held.left = left;
     return BRC_OK;
 }
-extern const brc_effect brc_stage_loads_effect;
 static void release(brc_simulation *s)
 {
-    brc_memory_free(s->loads.held.left);
-    brc_loads_free(&s->loads);
-    brc_memory_free(*brc_effect_own(s, &brc_stage_loads_effect));
+    if (s->loads) {
+        brc_memory_free(s->loads->held.left);
+        brc_loads_free(s->loads);
+    }
+    brc_memory_free(s->loads);
+    s->loads = NULL;
+}
+static brc_status create(brc_simulation *s)
+{
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->loads, 1, "loads"));
+    return brc_load_passes_make(s);
 }
 static brc_status constrain(brc_simulation *s, const brc_occasion *now)
 {
@@ -126,5 +133,4 @@ static void ask(brc_wants *out, const int32_t *material)
     (void)material;
     out->face_loads = faces(out) || tractions(out);
 }
-const brc_effect brc_stage_loads_effect = {
-    .ask = ask, .create = brc_load_passes_make, .free = release, BRC_HOOKED(hooked)};
+const brc_effect brc_stage_loads_effect = {.ask = ask, .create = create, .free = release, BRC_HOOKED(hooked)};

@@ -1,7 +1,6 @@
 /* Dead forces on elements, and elements whose rotation is prescribed. */
 #include "../../statics/balance.h"
-#include "element_loads.h"
-#include "load_fields.h"
+#include "loads_internal.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -188,10 +187,10 @@ static bool is_static(const brc_simulation *s)
 
 brc_status brc_pushes_apply(brc_simulation *s, const brc_force_request *r)
 {
-    for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
-        brc_push_load *p = s->loads.pushes + i;
+    for (int32_t i = 0; i < s->loads->n_pushes; ++i) {
+        brc_push_load *p = s->loads->pushes + i;
         p->factor = brc_load_factor(brc_current_stage(s)->loads + p->load, r->t, is_static(s));
-        BRC_TRY(brc_pass_run_on(brc_load_passes_of(s)->push_elements, p->n, r, p, NULL));
+        BRC_TRY(brc_pass_run_on(s->loads->pass.push_elements, p->n, r, p, NULL));
         if (r->book != BRC_BOOK_NOTHING) p->last_factor = p->factor;
     }
     return BRC_OK;
@@ -199,12 +198,12 @@ brc_status brc_pushes_apply(brc_simulation *s, const brc_force_request *r)
 
 brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r)
 {
-    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
-        brc_turn_load *m = s->loads.turns + i;
+    for (int32_t i = 0; i < s->loads->n_turns; ++i) {
+        brc_turn_load *m = s->loads->turns + i;
         const brc_load *load = brc_current_stage(s)->loads + m->load;
         const double factor = brc_load_factor(load, r->t, is_static(s)),
                      rate = is_static(s) ? 0 : brc_load_rate(load, r->t);
-        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->turn_book, m->n, r, m, {"step", BRC_STATE(factor - m->last_factor)},
+        BRC_TRY(BRC_RUN_ON(s->loads->pass.turn_book, m->n, r, m, {"step", BRC_STATE(factor - m->last_factor)},
                            {"rate", BRC_STATE(rate)}));
         if (r->book == BRC_BOOK_NOTHING) continue;
         m->last_factor = factor;
@@ -215,14 +214,14 @@ brc_status brc_turns_book(brc_simulation *s, const brc_force_request *r)
 
 static brc_status turn(brc_simulation *s, const brc_turn_load *m, double angle, bool finite, double rate)
 {
-    return BRC_RUN_ON(brc_load_passes_of(s)->impose_turn, m->n, NULL, m, {"angle", BRC_STATE(angle)},
+    return BRC_RUN_ON(s->loads->pass.impose_turn, m->n, NULL, m, {"angle", BRC_STATE(angle)},
                       {"finite", BRC_INT(finite ? 1 : 0)}, {"rate", BRC_STATE(rate)});
 }
 
 brc_status brc_turns_prescribe(brc_simulation *s, double t)
 {
-    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
-        brc_turn_load *m = s->loads.turns + i;
+    for (int32_t i = 0; i < s->loads->n_turns; ++i) {
+        brc_turn_load *m = s->loads->turns + i;
         const brc_load *load = brc_current_stage(s)->loads + m->load;
         const double factor = brc_load_factor(load, t, is_static(s));
         /* dynamics integrates the spin; only a factor that is there from the start is a jump */
@@ -236,8 +235,8 @@ brc_status brc_turns_prescribe(brc_simulation *s, double t)
 
 brc_status brc_turns_begin_step(brc_simulation *s, double t0, double t1)
 {
-    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
-        const brc_turn_load *m = s->loads.turns + i;
+    for (int32_t i = 0; i < s->loads->n_turns; ++i) {
+        const brc_turn_load *m = s->loads->turns + i;
         const brc_load *load = brc_current_stage(s)->loads + m->load;
         BRC_TRY(turn(s, m, 0, true, (brc_load_factor(load, t1, false) - brc_load_factor(load, t0, false)) / (t1 - t0)));
     }

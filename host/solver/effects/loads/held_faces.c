@@ -1,7 +1,5 @@
 /* Faces whose motion a stage prescribes, grouped by element, and the loads that do. */
-#include "element_loads.h"
-#include "load_fields.h"
-#include "load_values.h"
+#include "loads_internal.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,7 +86,7 @@ static void group(const brc_simulation *s, brc_held_faces *held, held_arrays *a)
 
 brc_status brc_held_faces_places(brc_simulation *s, double **out)
 {
-    const brc_held_faces *h = &s->loads.held;
+    const brc_held_faces *h = &s->loads->held;
     const int64_t n = s->domain->n_free_faces;
     double *value = NULL, *place = NULL;
     brc_status status = BRC_OK;

@@ -1,5 +1,5 @@
 /* What the loads of a stage have on the device: lists of faces and of elements, each of n things. */
-#include "load_fields.h"
+#include "loads_internal.h"
 
 #define AT(member) BRC_FIELD_AT(brc_held_faces, member)
 static const brc_field_row held_element_rows[] = {

@@ -1,23 +1,21 @@
 /* What the loads of the stage prescribe and book as it goes on. */
-#include "element_loads.h"
-#include "load_fields.h"
+#include "loads_internal.h"
 
 brc_status brc_loads_prescribe(brc_simulation *s, double t)
 {
     const brc_stage *stage = brc_current_stage(s);
     const bool is_static = stage->solver == BRC_SOLVER_STATIC;
-    for (int32_t i = 0; i < s->loads.held.n_loads; ++i) {
-        brc_held_load *e = s->loads.held.loads + i;
-        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->held_prescribe, e->n, NULL, e,
+    for (int32_t i = 0; i < s->loads->held.n_loads; ++i) {
+        brc_held_load *e = s->loads->held.loads + i;
+        BRC_TRY(BRC_RUN_ON(s->loads->pass.held_prescribe, e->n, NULL, e,
                            {"factor", BRC_STATE(brc_load_factor(stage->loads + e->load, t, is_static))}));
     }
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        brc_imposed_load *m = s->loads.imposed + i;
+    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
+        brc_imposed_load *m = s->loads->imposed + i;
         const brc_load *load = brc_imposed_of(stage, m);
-        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->impose_motion, m->n, NULL, m,
-                           {"factor", BRC_STATE(brc_load_factor(load, t, is_static))},
-                           {"rate", BRC_STATE(is_static ? 0 : brc_load_rate(load, t))},
-                           {"set_displacement", BRC_INT(1)}));
+        BRC_TRY(BRC_RUN_ON(
+            s->loads->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(brc_load_factor(load, t, is_static))},
+            {"rate", BRC_STATE(is_static ? 0 : brc_load_rate(load, t))}, {"set_displacement", BRC_INT(1)}));
     }
     return brc_turns_prescribe(s, t);
 }
@@ -25,10 +23,10 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
 brc_status brc_imposed_book(brc_simulation *s, const brc_force_request *r)
 {
     const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        brc_imposed_load *m = s->loads.imposed + i;
+    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
+        brc_imposed_load *m = s->loads->imposed + i;
         const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);
-        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->impose_book, m->n, r, m, {"rate", BRC_STATE(rate)}));
+        BRC_TRY(BRC_RUN_ON(s->loads->pass.impose_book, m->n, r, m, {"rate", BRC_STATE(rate)}));
         if (r->book != BRC_BOOK_NOTHING) m->last_rate = rate;
     }
     return BRC_OK;
@@ -37,9 +35,9 @@ brc_status brc_imposed_book(brc_simulation *s, const brc_force_request *r)
 brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
 {
     const brc_stage *stage = brc_current_stage(s);
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        brc_imposed_load *m = s->loads.imposed + i;
-        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->impose_motion, m->n, NULL, m, {"factor", BRC_STATE(0)},
+    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
+        brc_imposed_load *m = s->loads->imposed + i;
+        BRC_TRY(BRC_RUN_ON(s->loads->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(0)},
                            {"rate", BRC_STATE(brc_load_rate(brc_imposed_of(stage, m), t))},
                            {"set_displacement", BRC_INT(0)}));
     }
@@ -48,18 +46,18 @@ brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
 
 brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector)
 {
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        brc_imposed_load *m = s->loads.imposed + i;
-        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->zero_imposed, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
+    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
+        brc_imposed_load *m = s->loads->imposed + i;
+        BRC_TRY(BRC_RUN_ON(s->loads->pass.zero_imposed, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
     }
     return BRC_OK;
 }
 
 brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector)
 {
-    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
-        brc_turn_load *m = s->loads.turns + i;
-        BRC_TRY(BRC_RUN_ON(brc_load_passes_of(s)->zero_turned, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
+    for (int32_t i = 0; i < s->loads->n_turns; ++i) {
+        brc_turn_load *m = s->loads->turns + i;
+        BRC_TRY(BRC_RUN_ON(s->loads->pass.zero_turned, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
     }
     return BRC_OK;
 }
@@ -67,24 +65,24 @@ brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector)
 brc_status brc_loads_work(brc_simulation *s, double *out)
 {
     double sum = 0, part = 0;
-    if (s->loads.held.n_faces) {
-        BRC_TRY(brc_vector_sum(s, s->loads.held.work, s->loads.held.n_faces, &part));
+    if (s->loads->held.n_faces) {
+        BRC_TRY(brc_vector_sum(s, s->loads->held.work, s->loads->held.n_faces, &part));
         sum += part;
     }
-    for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
-        BRC_TRY(brc_vector_sum(s, s->loads.tractions[i].work, s->loads.tractions[i].n, &part));
+    for (int32_t i = 0; i < s->loads->n_tractions; ++i) {
+        BRC_TRY(brc_vector_sum(s, s->loads->tractions[i].work, s->loads->tractions[i].n, &part));
         sum += part;
     }
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        BRC_TRY(brc_vector_sum(s, s->loads.imposed[i].work, s->loads.imposed[i].n, &part));
+    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
+        BRC_TRY(brc_vector_sum(s, s->loads->imposed[i].work, s->loads->imposed[i].n, &part));
         sum += part;
     }
-    for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
-        BRC_TRY(brc_vector_sum(s, s->loads.pushes[i].work, s->loads.pushes[i].n, &part));
+    for (int32_t i = 0; i < s->loads->n_pushes; ++i) {
+        BRC_TRY(brc_vector_sum(s, s->loads->pushes[i].work, s->loads->pushes[i].n, &part));
         sum += part;
     }
-    for (int32_t i = 0; i < s->loads.n_turns; ++i) {
-        BRC_TRY(brc_vector_sum(s, s->loads.turns[i].work, s->loads.turns[i].n, &part));
+    for (int32_t i = 0; i < s->loads->n_turns; ++i) {
+        BRC_TRY(brc_vector_sum(s, s->loads->turns[i].work, s->loads->turns[i].n, &part));
         sum += part;
     }
     *out = sum;
@@ -93,9 +91,9 @@ brc_status brc_loads_work(brc_simulation *s, double *out)
 
 brc_status brc_force_held_energy(brc_simulation *s, double *out)
 {
-    brc_held_faces *h = &s->loads.held;
+    brc_held_faces *h = &s->loads->held;
     *out = 0;
     if (!h->n_faces) return BRC_OK;
-    BRC_TRY(brc_pass_run(brc_load_passes_of(s)->held_energy, h->n_elements));
+    BRC_TRY(brc_pass_run(s->loads->pass.held_energy, h->n_elements));
     return brc_vector_sum(s, h->energy, h->n_faces, out);
 }

@@ -1,12 +1,5 @@
 /* Passes of loads, in the scopes of their lists. */
-#include "load_fields.h"
-
-extern const brc_effect brc_stage_loads_effect;
-
-const brc_load_passes *brc_load_passes_of(const brc_simulation *s)
-{
-    return *brc_effect_own((brc_simulation *)s, &brc_stage_loads_effect);
-}
+#include "loads_internal.h"
 
 /* One thing of many, which each launch gives: a load. */
 static brc_scope scope_of_load(const char *owner, const brc_field_table *table, int n_values,
@@ -29,18 +22,16 @@ brc_status brc_load_passes_make(brc_simulation *s)
     static const brc_value_row of_push[] = {{"factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, factor)},
                                             {"last_factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, last_factor)}};
     static const brc_value_row of_turn[] = {{"last_rate", BRC_VALUE_REAL, BRC_FIELD_AT(brc_turn_load, last_rate)}};
-    void **own = brc_effect_own(s, &brc_stage_loads_effect);
-    BRC_TRY(brc_memory_allocate(s->context, own, 1, sizeof(brc_load_passes), "passes of loads"));
-    brc_load_passes *p = *own;
+    brc_load_passes *p = &s->loads->pass;
     const bool turns = s->model->turns;
     const brc_scope of_run = brc_scope_of_run(s),
                     of_request = brc_scope_of_request(&of_run), *const run = &of_run, *const request = &of_request;
     const brc_scope held = {.owner = "held faces",
-                            .base = &s->loads.held,
+                            .base = &s->loads->held,
                             .tables = {&brc_held_element_fields, &brc_held_face_fields},
                             .outer = request};
     const brc_scope state = {.owner = "held faces",
-                             .base = &s->loads.held,
+                             .base = &s->loads->held,
                              .tables = {&brc_held_element_fields, &brc_held_face_fields},
                              .outer = run};
     const brc_scope held_load = scope_of_load("held load", &brc_held_load_fields, 0, NULL, &state);

@@ -1,5 +1,5 @@
 /* What loads say: factors and rates in time, directions in space, the sets they act on. */
-#include "load_values.h"
+#include "loads_internal.h"
 #include <math.h>
 #include <string.h>
 

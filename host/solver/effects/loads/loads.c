@@ -1,8 +1,6 @@
 /* The loads of one stage: tractions, imposed elements, and what the other files of this folder make. Lists are sorted
  * by storage row, then by id. */
-#include "element_loads.h"
-#include "load_fields.h"
-#include "load_values.h"
+#include "loads_internal.h"
 #include "../../core/loaded_faces.h"
 #include <math.h>
 #include <stdlib.h>
@@ -222,7 +220,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         status = create_still(s, stage, taken, out->imposed + out->n_imposed, &any);
         out->n_imposed += any;
     }
-    out->on_faces = out->held.n_faces > 0 || out->n_tractions > 0;
+    s->face_loads = out->held.n_faces > 0 || out->n_tractions > 0;
 cleanup:
     brc_memory_free(taken);
     brc_memory_free(turned);
@@ -248,5 +246,5 @@ void brc_loads_free(brc_loads *loads)
     brc_memory_free(loads->tractions);
     brc_memory_free(loads->imposed);
     brc_element_loads_free(loads);
-    memset(loads, 0, sizeof *loads);
+    *loads = (brc_loads){.pass = loads->pass};
 }

@@ -1,5 +1,5 @@
 /* What loads do on the members of a set. */
-#include "../../core/simulation_internal.h"
+#include "loads_internal.h"
 #include <string.h>
 
 /* Sum of the loads with prescribed motion on the members of a set; moments about `point` where they are asked for: only
@@ -26,7 +26,7 @@ static void add_reaction(reaction_sum *sum, const double force[3], const double 
 static brc_status face_reactions(brc_simulation *s, const brc_set *set, reaction_sum *sum)
 {
     const brc_domain *d = s->domain;
-    const brc_held_faces *h = &s->loads.held;
+    const brc_held_faces *h = &s->loads->held;
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     double *values = NULL, *u = NULL;
     brc_status status = BRC_OK;
@@ -54,7 +54,7 @@ static brc_status element_reactions(brc_simulation *s, const brc_set *set, react
     double *values = NULL, *u = NULL;
     bool *member = NULL;
     brc_status status = BRC_OK;
-    if (s->loads.n_imposed + s->loads.n_turns == 0) return BRC_OK;
+    if (s->loads->n_imposed + s->loads->n_turns == 0) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * d->n_elements, "reactions"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "members"));
     for (int64_t m = 0; m < set->n_members; ++m)
@@ -63,16 +63,16 @@ static brc_status element_reactions(brc_simulation *s, const brc_set *set, react
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "reactions"));
         BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, u, 3));
     }
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i) {
-        const brc_imposed_load *m = s->loads.imposed + i;
+    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
+        const brc_imposed_load *m = s->loads->imposed + i;
         BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
         for (int32_t k = 0; k < m->n; ++k) {
             const int64_t e = m->element_id[k];
             if (member[e]) add_reaction(sum, values + 3 * (int64_t)k, d->position + 3 * e, u ? u + 3 * e : NULL);
         }
     }
-    for (int32_t i = 0; sum->moments && i < s->loads.n_turns; ++i) {
-        const brc_turn_load *m = s->loads.turns + i;
+    for (int32_t i = 0; sum->moments && i < s->loads->n_turns; ++i) {
+        const brc_turn_load *m = s->loads->turns + i;
         BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
         for (int32_t k = 0; k < m->n; ++k)
             for (int c = 0; member[m->element_id[k]] && c < 3; ++c)
@@ -110,8 +110,8 @@ brc_status brc_simulation_reaction_moment(brc_simulation *s, int32_t set, const 
 brc_status brc_simulation_applied_force(brc_simulation *s, double *out)
 {
     memset(out, 0, 3 * (size_t)s->domain->n_elements * sizeof *out);
-    for (int32_t i = 0; i < s->loads.n_pushes; ++i) {
-        const brc_push_load *p = s->loads.pushes + i;
+    for (int32_t i = 0; i < s->loads->n_pushes; ++i) {
+        const brc_push_load *p = s->loads->pushes + i;
         for (int32_t k = 0; k < p->n; ++k)
             for (int c = 0; c < 3; ++c)
                 out[3 * (int64_t)p->element_id[k] + c] += p->factor * p->total_of[3 * (int64_t)k + c];

@@ -1,7 +1,6 @@
 /* What the loads of the stage remember, number by number, for a store (state_store.h). */
 #include "../../core/state_store.h"
-#include "element_loads.h"
-#include "load_fields.h"
+#include "loads_internal.h"
 #include <stdio.h>
 
 /* What a list of a load keeps, as "loads.<kind>.<i>.<what>". */
@@ -23,7 +22,7 @@ static brc_status walk_number(brc_state_store *store, const char *kind, int32_t 
 
 static brc_status walk_held(brc_simulation *s, brc_state_store *store)
 {
-    const brc_held_faces *h = &s->loads.held;
+    const brc_held_faces *h = &s->loads->held;
     int32_t *face = NULL;
     brc_status status = BRC_OK;
     if (h->n_faces == 0) return BRC_OK;
@@ -40,7 +39,7 @@ cleanup:
 
 static brc_status walk_traction(brc_simulation *s, brc_state_store *store, int32_t i)
 {
-    brc_traction_load *t = s->loads.tractions + i;
+    brc_traction_load *t = s->loads->tractions + i;
     int32_t *element = NULL;
     brc_status status = BRC_OK;
     BRC_TRY(walk_number(store, "traction", i, "last_factor", &t->last_factor));
@@ -58,14 +57,14 @@ cleanup:
 
 static brc_status walk_imposed(brc_simulation *s, brc_state_store *store, int32_t i)
 {
-    brc_imposed_load *m = s->loads.imposed + i;
+    brc_imposed_load *m = s->loads->imposed + i;
     BRC_TRY(walk_list(s, store, "imposed", i, &brc_imposed_fields, m, m->n, m->element_id));
     return walk_number(store, "imposed", i, "last_rate", &m->last_rate);
 }
 
 static brc_status walk_push(brc_simulation *s, brc_state_store *store, int32_t i)
 {
-    brc_push_load *p = s->loads.pushes + i;
+    brc_push_load *p = s->loads->pushes + i;
     BRC_TRY(walk_number(store, "push", i, "factor", &p->factor));
     BRC_TRY(walk_number(store, "push", i, "last_factor", &p->last_factor));
     return walk_list(s, store, "push", i, &brc_push_fields, p, p->n, p->element_id);
@@ -73,7 +72,7 @@ static brc_status walk_push(brc_simulation *s, brc_state_store *store, int32_t i
 
 static brc_status walk_turn(brc_simulation *s, brc_state_store *store, int32_t i)
 {
-    brc_turn_load *m = s->loads.turns + i;
+    brc_turn_load *m = s->loads->turns + i;
     BRC_TRY(walk_number(store, "turn", i, "turned", &m->turned));
     BRC_TRY(walk_number(store, "turn", i, "last_factor", &m->last_factor));
     BRC_TRY(walk_number(store, "turn", i, "last_rate", &m->last_rate));
@@ -83,13 +82,13 @@ static brc_status walk_turn(brc_simulation *s, brc_state_store *store, int32_t i
 brc_status brc_loads_store(brc_simulation *s, brc_state_store *store)
 {
     BRC_TRY(walk_held(s, store));
-    for (int32_t i = 0; i < s->loads.n_tractions; ++i)
+    for (int32_t i = 0; i < s->loads->n_tractions; ++i)
         BRC_TRY(walk_traction(s, store, i));
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
+    for (int32_t i = 0; i < s->loads->n_imposed; ++i)
         BRC_TRY(walk_imposed(s, store, i));
-    for (int32_t i = 0; i < s->loads.n_pushes; ++i)
+    for (int32_t i = 0; i < s->loads->n_pushes; ++i)
         BRC_TRY(walk_push(s, store, i));
-    for (int32_t i = 0; i < s->loads.n_turns; ++i)
+    for (int32_t i = 0; i < s->loads->n_turns; ++i)
         BRC_TRY(walk_turn(s, store, i));
     return BRC_OK;
 }

@@ -1,6 +1,7 @@
 /* Strikers: made from the scene, moved, and asked. How they move is in rigid.h and strikers.cl; what pushes
  * them is contact. */
 #include "strikers_internal.h"
+#include "../loads/loads.h"
 #include <math.h>
 #include <string.h>
 

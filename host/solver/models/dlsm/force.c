@@ -3,6 +3,7 @@
 #include "cell_softening.h"
 #include "closed_faces.h"
 #include "../../effects/contact/contact.h"
+#include "../../effects/loads/loads.h"
 #include "dlsm.h"
 #include "rims.h"
 
@@ -31,62 +32,33 @@ static extent extent_of(const brc_simulation *s, const brc_force_request *r)
 static brc_status gradients(brc_simulation *s, const brc_force_request *r, const extent *x)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
-    brc_held_faces *h = &s->loads.held;
     BRC_TRY(brc_pass_over(s, own->gradient, own->gradient_listed, x->list, x->gradient, r, NULL));
     if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s, x->list, x->gradient));
-    if (h->n_faces)
-        BRC_TRY(BRC_RUN_ON(own->held_gradient, h->n_elements, r, NULL,
-                           {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)}));
-    return BRC_OK;
+    return brc_held_faces_run(s, own->held_gradient, r, false);
 }
 
 /* What held faces, tractions and contact add to Q. */
 static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
-    brc_held_faces *h = &s->loads.held;
     const bool touching = brc_contact_acts(s, r);
-    if (!s->loads.on_faces && !touching) return BRC_OK;
+    if (!brc_loads_on_faces(s) && !touching) return BRC_OK;
     BRC_TRY(brc_buffer_fill_zero(s->held_moment));
     if (touching) {
         const brc_step_phase before = brc_phase_within(s, BRC_PHASE_PAIRS);
         BRC_TRY(brc_contact_moments(s, r));
         brc_phase_within(s, before);
     }
-    if (h->n_faces)
-        BRC_TRY(BRC_RUN_ON(own->held_moment, h->n_elements, r, NULL,
-                           {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)}));
-    if (r->homogeneous) return BRC_OK;
-    const brc_stage *stage = brc_current_stage(s);
-    for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
-        brc_traction_load *t = s->loads.tractions + i;
-        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
-        BRC_TRY(BRC_RUN_ON(own->traction_moment, t->n, NULL, t, {"factor", BRC_COEFF(factor)}));
-    }
-    return BRC_OK;
+    BRC_TRY(brc_held_faces_run(s, own->held_moment, r, false));
+    return r->homogeneous ? BRC_OK : brc_traction_moments_run(s, own->traction_moment, r);
 }
 
 /* Forces of held faces and tractions on their elements, and their work. */
 static brc_status face_forces(brc_simulation *s, const brc_force_request *r)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
-    brc_held_faces *h = &s->loads.held;
-    if (h->n_faces) {
-        /* the linear operator must not disturb reactions and work: the former go to scratch */
-        brc_buffer *reaction = r->homogeneous ? h->scratch : h->reaction;
-        BRC_TRY(BRC_RUN_ON(own->held_force, h->n_elements, r, NULL,
-                           {"value", BRC_BUF(r->homogeneous ? h->zero_value : h->value)},
-                           {"reaction", BRC_BUF(reaction)}));
-    }
-    if (r->homogeneous) return BRC_OK;
-    const brc_stage *stage = brc_current_stage(s);
-    for (int32_t i = 0; i < s->loads.n_tractions; ++i) {
-        brc_traction_load *t = s->loads.tractions + i;
-        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
-        BRC_TRY(BRC_RUN_ON(own->traction_force, t->n, r, t, {"factor", BRC_STATE(factor)}));
-        if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
-    }
-    return BRC_OK;
+    BRC_TRY(brc_held_faces_run(s, own->held_force, r, true));
+    return r->homogeneous ? BRC_OK : brc_traction_forces_run(s, own->traction_force, r);
 }
 
 /* H, P and B. */
@@ -102,7 +74,7 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
     else
         BRC_TRY(brc_pass_over(s, own->stress, own->stress_listed, x->list, x->stress, r, NULL));
     BRC_TRY(face_moments(s, r));
-    const bool moments = s->loads.on_faces || brc_contact_acts(s, r);
+    const bool moments = brc_loads_on_faces(s) || brc_contact_acts(s, r);
     if (r->rings && brc_rims_add(s, r->rings))
         BRC_TRY(brc_rims_flux(s, r, moments));
     else

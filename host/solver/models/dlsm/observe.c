@@ -1,4 +1,5 @@
 /* What is read of a state of dlsm, and the least bytes of a step. */
+#include "../../effects/loads/loads.h"
 #include "dlsm.h"
 #include <string.h>
 
@@ -7,7 +8,7 @@ static brc_status deformation(brc_simulation *s, double *out)
 {
     /* B is dead between force evaluations: its buffer takes G */
     BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->deformation, s->n_groups,
-                    {"face_loads", BRC_INT(s->loads.held.n_faces > 0 ? 1 : 0)}, {"deformation", BRC_BUF(s->flux)}));
+                    {"face_loads", BRC_INT(brc_loads_n_held_faces(s) > 0 ? 1 : 0)}, {"deformation", BRC_BUF(s->flux)}));
     return brc_coeff_from_rows(s, s->flux, out, 9);
 }
 
@@ -68,7 +69,7 @@ brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_
     const brc_domain *d = s->domain;
     brc_buffer *element = NULL, *arm = NULL, *result = NULL;
     int32_t *rows = NULL;
-    double *arms = NULL, *held = NULL;
+    double *arms = NULL;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, n, "faces"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arms, 3 * n, "faces"));
@@ -86,23 +87,13 @@ brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_
                                 {"arm", BRC_BUF(arm)}, {"out", BRC_BUF(result)}));
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     BRC_TRY_OR(cleanup, brc_download(s, result, bytes, out, 3 * n));
-    const brc_held_faces *h = &s->loads.held;
-    if (h->n_faces && h->value) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held, 3 * (int64_t)h->n_faces, "held faces"));
-        BRC_TRY_OR(cleanup, brc_download(s, h->value, bytes, held, 3 * (int64_t)h->n_faces));
-        for (int64_t i = 0; i < n; ++i) {
-            const int64_t at = h->index_of_free_face[faces[i]];
-            for (int c = 0; at >= 0 && c < 3; ++c)
-                if (h->component_of_face[at] >> c & 1) out[3 * i + c] = held[3 * at + c];
-        }
-    }
+    status = brc_held_faces_displacement(s, n, faces, out);
 cleanup:
     brc_buffer_free(&element);
     brc_buffer_free(&arm);
     brc_buffer_free(&result);
     brc_memory_free(rows);
     brc_memory_free(arms);
-    brc_memory_free(held);
     return status;
 }
 

@@ -1,5 +1,6 @@
 /* Forces and energies of dlsm-published: the order of its passes (docs/notebook/theory.md T3). */
 #include "../../effects/fracture/cell_breaks_internal.h"
+#include "../../effects/loads/loads.h"
 #include "published.h"
 
 brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
@@ -15,14 +16,7 @@ brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
 
 brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r)
 {
-    const brc_stage *stage = s->loads.n_tractions > 0 ? brc_current_stage(s) : NULL;
-    for (int32_t i = 0; stage && i < s->loads.n_tractions; ++i) {
-        brc_traction_load *t = s->loads.tractions + i;
-        const double factor = brc_load_factor(stage->loads + t->load, r->t, stage->solver == BRC_SOLVER_STATIC);
-        BRC_TRY(BRC_RUN_ON(brc_published_own_of(s)->traction, t->n, r, t, {"factor", BRC_STATE(factor)}));
-        if (r->book != BRC_BOOK_NOTHING) t->last_factor = factor;
-    }
-    return BRC_OK;
+    return brc_traction_forces_run(s, brc_published_own_of(s)->traction, r);
 }
 
 bool brc_published_places(const brc_simulation *s, const brc_rings *rings)

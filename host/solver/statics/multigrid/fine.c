@@ -1,5 +1,6 @@
 #include "fine.h"
 #include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/loads/loads.h"
 #include <math.h>
 
 #include <string.h>
@@ -150,41 +151,53 @@ static void add_face(const brc_fine *f, int64_t face, int bits, brc_block out)
                     out[6 * a + b] += j[r][a] * m[r][c] * j[c][b];
 }
 
+/* Elements with held faces, and where each is among them. */
+typedef struct ground_list {
+    brc_fine *f;
+    int32_t *at; /* [n_elements] */
+} ground_list;
+
+static void mark_ground(void *self, const brc_prescribed *one)
+{
+    if (one->face >= 0) ((ground_list *)self)->at[one->element] = 1;
+}
+static void add_ground(void *self, const brc_prescribed *one)
+{
+    const ground_list *g = self;
+    if (one->face >= 0) add_face(g->f, one->face, one->motion, g->f->ground[g->at[one->element]]);
+}
+
 static brc_status collect_ground(brc_simulation *s, brc_fine *f)
 {
-    const brc_domain *d = s->domain;
-    int32_t *at = NULL;
-    if (s->loads.held.n_faces == 0) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &at, d->n_elements, "held elements"));
-    brc_status status = BRC_ALLOCATE(s->context, &f->ground_element, s->loads.held.n_faces, "held elements");
-    if (status == BRC_OK) status = BRC_ALLOCATE(s->context, &f->ground, s->loads.held.n_faces, "held elements");
-    for (int64_t face = 0; status == BRC_OK && face < d->n_free_faces; ++face)
-        if (s->loads.held.index_of_free_face[face] >= 0) at[d->free_element[face]] = 1;
-    for (int64_t e = 0; status == BRC_OK && e < d->n_elements; ++e) {
-        if (!at[e]) continue;
+    const int32_t n = brc_loads_n_held_faces(s);
+    ground_list g = {.f = f};
+    brc_status status = BRC_OK;
+    if (n == 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &g.at, s->domain->n_elements, "held elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &f->ground_element, n, "held elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &f->ground, n, "held elements"));
+    brc_loads_each_prescribed(s, mark_ground, &g);
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) {
+        if (!g.at[e]) continue;
         f->ground_element[f->n_ground] = (int32_t)e;
-        at[e] = f->n_ground++;
+        g.at[e] = f->n_ground++;
     }
-    for (int64_t face = 0; status == BRC_OK && face < d->n_free_faces; ++face) {
-        const int32_t held = s->loads.held.index_of_free_face[face];
-        if (held >= 0) add_face(f, face, s->loads.held.component_of_face[held], f->ground[at[d->free_element[face]]]);
-    }
-    brc_memory_free(at);
+    brc_loads_each_prescribed(s, add_ground, &g);
+cleanup:
+    brc_memory_free(g.at);
     return status;
 }
 
-/* Components that no load prescribes. */
+/* Components of elements that no load prescribes. */
+static void clear_prescribed(void *self, const brc_prescribed *one)
+{
+    brc_fine *f = self;
+    if (one->face < 0) f->nodes.free_bits[one->element] &= (uint8_t) ~(one->motion | one->rotation << 3);
+}
 static void find_free(brc_simulation *s, brc_fine *f)
 {
     memset(f->nodes.free_bits, 63, (size_t)f->nodes.n);
-    for (int32_t i = 0; i < s->loads.n_imposed; ++i)
-        for (int32_t k = 0; k < s->loads.imposed[i].n; ++k)
-            f->nodes.free_bits[s->loads.imposed[i].element_id[k]] &= (uint8_t)~s->loads.imposed[i].component_bits;
-    for (int32_t i = 0; i < s->loads.n_turns; ++i)
-        for (int32_t k = 0; k < s->loads.turns[i].n; ++k)
-            for (int c = 0; c < 3; ++c)
-                if (brc_current_stage(s)->loads[s->loads.turns[i].load].component[c])
-                    f->nodes.free_bits[s->loads.turns[i].element_id[k]] &= (uint8_t) ~(8 << c);
+    brc_loads_each_prescribed(s, clear_prescribed, f);
 }
 
 /* Mean volume of each body's elements, as a length. */
