@@ -1,6 +1,7 @@
 /* Counts, and what is done with a table of fields. */
 #include "../../device/shares.h"
 #include "fields.h"
+#include <string.h>
 
 /* Room for LANE_SPARE numbers of portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
@@ -103,6 +104,14 @@ static brc_buffer **buffer_of(const brc_field_row *field, void *owner)
 brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner)
 {
     return *(brc_buffer *const *)(const void *)((const char *)owner + field->at);
+}
+
+brc_buffer *brc_field_named(const brc_field_table *table, const void *owner, const char *name)
+{
+    brc_buffer *found = NULL;
+    for (int k = 0; !found && k < table->n; ++k)
+        if (strcmp(table->fields[k].name, name) == 0) found = brc_field_buffer(&table->fields[k], owner);
+    return found;
 }
 
 /* How an array of a table lies; what no rank has a share of lies anyhow. */

@@ -113,8 +113,9 @@ int64_t brc_fields_bytes(const brc_field_table *table, const brc_wants *wants);
  * for brc_fields_free. */
 brc_status brc_fields_create(brc_device *device, const brc_field_table *table, const brc_wants *wants, void *owner);
 void brc_fields_free(const brc_field_table *table, void *owner);
-/* The array of a field; NULL: not there. */
+/* The array of a field; of that with this name; NULL: not there. */
 brc_buffer *brc_field_buffer(const brc_field_row *field, const void *owner);
+brc_buffer *brc_field_named(const brc_field_table *table, const void *owner, const char *name);
 
 /* ---- all tables (field_tables.c) ---- */
 /* Bytes of all fields of a life. */

@@ -8,6 +8,17 @@
 static const double LARGEST_SHARE = 1;
 enum { MOST_STEPS = 32 };
 
+/* One simulation has at most one. */
+struct brc_noise {
+    brc_pass *gradient_pass, *flux_pass, *force_pass, *damp;
+    brc_buffer *gradient, *no_stress, *flux, *bond_part,
+        *force;     /* of velocities: [n][9] 1/s, zeros, [n][9], [n][9], [n][3] */
+    int64_t every;  /* 0: not in this stage */
+    double factor;  /* [s^2]: v -= factor / m S v */
+    double nothing; /* 0: no compaction */
+    bool never;     /* false: no loads on faces, and the linear law */
+};
+
 static bool asks(const brc_stage *stage)
 {
     return stage->solver == BRC_SOLVER_DYNAMIC && stage->noise_damping > 0;
@@ -109,6 +120,15 @@ brc_status brc_noise_damp(brc_simulation *s)
     BRC_TRY(brc_pass_run(d->force_pass, s->n_groups));
     BRC_TRY(brc_constrain(s, d->force, NULL));
     return brc_pass_run(d->damp, n);
+}
+
+brc_buffer *brc_noise_drag(const brc_simulation *s)
+{
+    return s->noise->force;
+}
+double brc_noise_factor(const brc_simulation *s)
+{
+    return s->noise->factor;
 }
 
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_ENTERED, .plain = enter},

@@ -11,18 +11,10 @@
 
 #include "../core/simulation_internal.h"
 
-/* One simulation has at most one. */
-struct brc_noise {
-    brc_pass *gradient_pass, *flux_pass, *force_pass, *damp;
-    brc_buffer *gradient, *no_stress, *flux, *bond_part,
-        *force;     /* of velocities: [n][9] 1/s, zeros, [n][9], [n][9], [n][3] */
-    int64_t every;  /* 0: not in this stage */
-    double factor;  /* [s^2]: v -= factor / m S v */
-    double nothing; /* 0: no compaction */
-    bool never;     /* false: no loads on faces, and the linear law */
-};
-
 /* Damp velocities of whole steps; what they lose is booked as damping. */
 brc_status brc_noise_damp(brc_simulation *s);
+/* [n_rows][3] S v of the last time, with the sign of a force; and z t_c n dt [s^2]. */
+brc_buffer *brc_noise_drag(const brc_simulation *s);
+double brc_noise_factor(const brc_simulation *s);
 
 #endif

@@ -49,6 +49,8 @@ typedef struct brc_model_breaking {
     brc_status (*rebuild)(struct brc_simulation *s, double *left);
     /* Whether the list of rings is to be placed (rings.h). */
     bool (*places)(const struct brc_simulation *s, const struct brc_rings *rings);
+    /* Criteria of bonds: those above `share` of their limit are marked, `found` of elements or groups counts them. */
+    brc_status (*mark)(struct brc_simulation *s, double share);
     /* The largest ratio of a bond's stress to its limit. */
     brc_status (*ratio)(struct brc_simulation *s, double *out);
     /* Gradients of ring 0, before surfaces are looked for; NULL: surfaces move with rotations. */

@@ -1,5 +1,5 @@
 #include "pieces.h"
-#include "../effects/fracture/fracture_internal.h"
+#include "../effects/fracture/breaking.h"
 #include "../effects/loads/loads.h"
 
 /* Elements by piece, each piece's in the order of their ids. */

@@ -1,6 +1,6 @@
 /* The order of failures of a body that is loaded so slowly that nothing moves. */
 #include "static_events.h"
-#include "../effects/fracture/fracture_internal.h"
+#include "../effects/fracture/breaking.h"
 #include "../effects/loads/loads.h"
 #include "../run/look.h"
 #include "../run/stage_end.h"

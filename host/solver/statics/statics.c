@@ -3,7 +3,7 @@
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "../../base/random.h"
 #include "statics.h"
-#include "../effects/fracture/fracture_internal.h"
+#include "../effects/fracture/breaking.h"
 #include "../effects/loads/loads.h"
 #include "multigrid/multigrid.h"
 #include <float.h>

@@ -1,6 +1,6 @@
 /* After breaks only the rings of elements around them are evaluated: forces, velocities, energy and the breaks that
  * follow are those of an evaluation of the whole body. */
-#include "../../../host/solver/effects/fracture/cell_breaks_internal.h"
+#include "../../../host/solver/effects/fracture/breaking.h"
 #include "../../../host/solver/effects/contact/touching.h"
 #include "../effects/contact/contact_case.h"
 #include <math.h>
@@ -15,7 +15,7 @@
 
 static brc_rings *rings_of(bench_case *c)
 {
-    return c->simulation->fracture->cells->rings;
+    return brc_cell_breaks_rings(c->simulation);
 }
 static double *rows(bench_case *c, brc_buffer *buffer)
 {

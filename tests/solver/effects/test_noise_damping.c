@@ -38,10 +38,10 @@ static void apply(bench_case *c, const double *v, double *drag, double *per_mass
     brc_simulation *s = c->simulation;
     assert_done(c, brc_upload_state(s, s->velocity, v, length_of(c)));
     assert_done(c, brc_noise_damp(s));
-    double *force = rows_of(c, s->noise->force), *after = rows_of(c, s->velocity);
+    double *force = rows_of(c, brc_noise_drag(s)), *after = rows_of(c, s->velocity);
     for (int64_t k = 0; k < length_of(c); ++k) {
         if (drag) drag[k] = -force[k];
-        if (per_mass) per_mass[k] = (v[k] - after[k]) / s->noise->factor;
+        if (per_mass) per_mass[k] = (v[k] - after[k]) / brc_noise_factor(s);
     }
     free(force);
     free(after);
@@ -51,7 +51,7 @@ static void open_shaken(bench_case *c, case_options options)
 {
     open_case(c, options);
     assert_done(c, brc_simulation_begin_stage(c->simulation, 0));
-    assert_non_null(c->simulation->noise);
+    assert_non_null(brc_noise_drag(c->simulation));
 }
 
 /* Of a random velocity: no sum of forces, no moment about the undeformed places, and the same work of one field's drag

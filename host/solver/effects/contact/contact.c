@@ -1,8 +1,8 @@
 /* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
 #include "contact_internal.h"
 #include "../fracture/ahead.h"
-#include "../fracture/cell_breaks_internal.h"
-#include "../strikers/strikers_internal.h"
+#include "../fracture/breaking.h"
+#include "../strikers/striker_contact.h"
 #include "touching.h"
 #include <math.h>
 #include <string.h>
@@ -123,10 +123,7 @@ brc_status brc_contact_restart(brc_simulation *s)
 static brc_status tell_of_overlap(brc_simulation *s, const brc_ledger *ledger)
 {
     brc_touching now;
-    bool told = false;
-    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i)
-        told = told || s->strikers->told[i];
-    if (told || !(ledger->contact > 0)) return BRC_OK;
+    if (brc_strikers_overlap(s) || !(ledger->contact > 0)) return BRC_OK;
     BRC_TRY(brc_simulation_touching(s, &now));
     if (now.penetration > brc_striker_told_depth(s))
         brc_log(s->context, BRC_LOG_WARNING,
@@ -207,7 +204,7 @@ static brc_status load_strikers(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     if (c->n_pieces == 0) return BRC_OK;
-    const int32_t n = s->strikers->n, n_blocks = (l->n_pairs + BRC_CONTACT_PAIRS - 1) / BRC_CONTACT_PAIRS;
+    const int32_t n = brc_simulation_n_strikers(s), n_blocks = (l->n_pairs + BRC_CONTACT_PAIRS - 1) / BRC_CONTACT_PAIRS;
     BRC_TRY(BRC_RUN(c->pass.striker_parts, n * n_blocks, {"n_blocks", BRC_INT(n_blocks)},
                     {"n_pairs", BRC_INT(l->n_pairs)}, {"n", BRC_INT(s->layout->n_rows)},
                     {"stride", BRC_INT(BRC_CONTACT_RESULT + 2 * c->width)},
@@ -266,7 +263,8 @@ static brc_status beams_broke(brc_simulation *s, bool *out)
 /* Who is touched by the breaks of this step (rings.h); beams: who lost one. */
 static brc_buffer *touched(const brc_simulation *s)
 {
-    return s->fracture->cells ? s->fracture->cells->rings->touched : s->contact->fresh;
+    brc_rings *rings = brc_cell_breaks_rings(s);
+    return rings ? rings->touched : s->contact->fresh;
 }
 
 brc_status brc_contact_expose(brc_simulation *s)
@@ -274,7 +272,7 @@ brc_status brc_contact_expose(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const int32_t n = s->layout->n_rows;
     if (!s->fracture) return BRC_OK;
-    return BRC_RUN(c->pass.expose, n, {"broken", BRC_BUF(s->fracture->gone ? s->fracture->gone : s->fracture->broken)});
+    return BRC_RUN(c->pass.expose, n, {"broken", BRC_BUF(brc_fracture_lost_bonds(s))});
 }
 
 /* What the breaks of this step change of the list. */
@@ -368,7 +366,7 @@ static double stiffest(const brc_simulation *s, int64_t e, int32_t other)
  * [m^2]. */
 static double meeting_area(const brc_simulation *s, int32_t striker)
 {
-    const brc_striker_surface *surface = &s->strikers->body[striker].surface;
+    const brc_striker_surface *surface = &brc_simulation_striker_body(s, striker)->surface;
     const double(*b)[3] = s->domain->bounds;
     double width[2][3] = {{0}}, most = 0;
     for (int c = 0; c < 3; ++c) {
@@ -396,9 +394,9 @@ static double fastest_striker(const brc_simulation *s)
 {
     const brc_domain *d = s->domain;
     double fastest = 0;
-    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i) {
+    for (int32_t i = 0; i < brc_simulation_n_strikers(s); ++i) {
         const brc_striker *striker = s->scene->strikers + i;
-        const double mass = s->strikers->body[i].mass;
+        const double mass = brc_simulation_striker_body(s, i)->mass;
         double stiffness = 0, damping = 0; /* of unit area: K [N/m^3], n m' b^2 [kg/m^2] */
         if (striker->motion != BRC_STRIKER_FREE) continue;
         for (int64_t e = 0; e < d->n_elements; ++e) {

@@ -83,4 +83,22 @@ brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store);
 /* What steps change in which nobody looks for pairs, to a store of fields. */
 brc_status brc_contact_store_stretch(brc_simulation *s, brc_state_store *store);
 
+/* ---- what a list of pairs is made by, and what it holds ---- */
+/* Law of two materials (BRC_CONTACT_LAW numbers, contact_law.h). */
+const double *brc_contact_law_of(const brc_simulation *s, int32_t i, int32_t j);
+/* Make the list anew, from where elements are and how they stand now; what pairs remember is kept. */
+brc_status brc_contact_search(brc_simulation *s);
+/* The list for places and pieces as they were taken last: the second half of a search. */
+brc_status brc_contact_list_again(brc_simulation *s);
+/* For comparison: breaks look for all pairs, and openings follow by evaluations of all. */
+void brc_contact_always_whole(brc_simulation *s, bool whole);
+/* Ends [n][2] and memory [n][BRC_CONTACT_HISTORY] of the n pairs listed now, read (either may be NULL); memory
+ * written. */
+enum { BRC_CONTACT_HISTORY = 20, BRC_CONTACT_LAW = 6 }; /* as in contact_search.cl, contact.cl */
+brc_status brc_contact_read_pairs(brc_simulation *s, int32_t *ends, double *history);
+brc_status brc_contact_write_pairs(brc_simulation *s, const double *history);
+/* Kinetic energy of the turning of rigid cells [J]; their angular momenta [n_elements][3] [kg m^2/s]. */
+brc_status brc_contact_spin_energy(brc_simulation *s, double *out);
+brc_status brc_contact_momenta(brc_simulation *s, double *out);
+
 #endif

@@ -1,6 +1,6 @@
 /* What contact has on the device. */
 #include "contact_internal.h"
-#include "../strikers/strikers_internal.h"
+#include "../strikers/striker_contact.h"
 
 /* ---- what is known from the start ---- */
 
@@ -283,7 +283,6 @@ int64_t brc_contact_buckets(int64_t n)
 #define OLD(member) BRC_VALUE_BUFFER, OF_LIST(member)
 void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out)
 {
-    static const brc_strikers none = {0};
     static const brc_value_row of_contact[] = {{"middle_x", BRC_VALUE_REAL, AT(middle[0])},
                                                {"middle_y", BRC_VALUE_REAL, AT(middle[1])},
                                                {"middle_z", BRC_VALUE_REAL, AT(middle[2])},
@@ -299,14 +298,10 @@ void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out)
     static const brc_value_row of_before[] = {{"old_slot_of", OLD(slot_of)}, {"old_start", OLD(start)},
                                               {"old_used", OLD(used)},       {"old_entry", OLD(entry)},
                                               {"old_pair", OLD(pair)},       {"old_history", OLD(history)}};
-    static const brc_value_row of_strikers[] = {{"striker_pose", BRC_VALUE_BUFFER, offsetof(brc_strikers, pose)},
-                                                {"motion", BRC_VALUE_BUFFER, offsetof(brc_strikers, motion)},
-                                                {"load", BRC_VALUE_BUFFER, offsetof(brc_strikers, load)}};
     const brc_contact_state *c = s->contact;
     out->run = brc_scope_of_run(s);
     out->scene = (brc_scope){.owner = "scene", .base = s->scene, BRC_VALUES(of_scene), .outer = &out->run};
-    out->strikers = (brc_scope){
-        .owner = "strikers", .base = s->strikers ? s->strikers : &none, BRC_VALUES(of_strikers), .outer = &out->scene};
+    out->strikers = brc_scope_of_strikers(s, &out->scene);
     out->contact =
         (brc_scope){.owner = "contact",
                     .base = c,

@@ -5,12 +5,7 @@
 #include "../../utilities/scans.h"
 #include "contact.h"
 
-enum {
-    BRC_CONTACT_HISTORY = 20,
-    BRC_CONTACT_RESULT = 8,
-    BRC_CONTACT_LAW = 6,
-    BRC_CONTACT_PAIRS = 256
-}; /* as in contact_search.cl, contact.cl */
+enum { BRC_CONTACT_RESULT = 8, BRC_CONTACT_PAIRS = 256 }; /* as in contact_search.cl, contact.cl */
 enum {
     BRC_CONTACT_BLOCK = 256,
     BRC_CONTACT_PART = 16,
@@ -111,8 +106,6 @@ void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out);
 /* ---- contact_setup.c ---- */
 /* Arrays of rows, laws of materials, who is exposed at the start. */
 brc_status brc_contact_setup(brc_simulation *s);
-/* Law of two materials (BRC_CONTACT_LAW numbers, contact_law.h). */
-const double *brc_contact_law_of(const brc_simulation *s, int32_t i, int32_t j);
 
 /* ---- contact_shapes.c ---- */
 brc_status brc_contact_shapes(brc_simulation *s);
@@ -121,8 +114,6 @@ brc_status brc_contact_shapes(brc_simulation *s);
 brc_status brc_contact_rigid_create(brc_simulation *s);
 /* Cells without bonds become rigid. */
 brc_status brc_contact_detach(brc_simulation *s);
-/* Kinetic energy of the turning of rigid cells [J]. */
-brc_status brc_contact_spin_energy(brc_simulation *s, double *out);
 
 /* ---- contact.c ---- */
 /* Elements that lost bonds are exposed; who lost one since the last time is c->fresh. */
@@ -130,10 +121,6 @@ brc_status brc_contact_expose(brc_simulation *s);
 
 /* ---- contact_search.c ---- */
 brc_status brc_contact_search_create(brc_simulation *s);
-/* Make the list anew, from where elements are and how they stand now; what pairs remember is kept. */
-brc_status brc_contact_search(brc_simulation *s);
-/* The list for places and pieces as they were taken last: the second half of a search. */
-brc_status brc_contact_list_again(brc_simulation *s);
 /* The list after breaks, for the same places: what belongs to elements that lost bonds (c->fresh) and to who is near
  * them is looked for again, the rest goes over, results of pairs too. c->todo: pairs of those elements and of `touched`
  * [n_rows] ones (rings.h). */

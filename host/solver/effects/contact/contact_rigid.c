@@ -1,5 +1,5 @@
 /* Cells of dlsm that have lost all their bonds, as rigid bodies (contact_rigid.cl). */
-#include "../fracture/cell_breaks_internal.h"
+#include "../fracture/breaking.h"
 #include "../loads/loads.h"
 #include "contact_internal.h"
 #include "../../core/loaded_faces.h"
@@ -93,7 +93,7 @@ brc_status brc_contact_list_bonded(brc_simulation *s)
         BRC_TRY(BRC_ALLOCATE(s->context, &c->bonded, 1, "cells with bonds"));
         BRC_TRY(brc_fields_create(s->device, &brc_bonded_list_fields, &s->wants, c->bonded));
     }
-    return brc_rings_without(s, s->fracture->cells->rings, c->rigid, c->bonded);
+    return brc_rings_without(s, brc_cell_breaks_rings(s), c->rigid, c->bonded);
 }
 
 const brc_ring_list *brc_contact_bonded(const brc_simulation *s)

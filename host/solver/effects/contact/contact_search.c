@@ -1,7 +1,7 @@
 /* The list of pairs that may touch: a grid of hashed cells, sorted on the device (contact_search.cl,
  * scan.cl). */
 #include "contact_internal.h"
-#include "../strikers/strikers_internal.h"
+#include "../strikers/striker_contact.h"
 #include <math.h>
 
 enum { MOST_QUIET = 64, FEWEST_QUIET = 8, MOST_TRUSTED = 8 };
@@ -270,7 +270,7 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
         BRC_TRY(renew(s, &brc_contact_pair_fields, l->pair_room, l));
     }
     if (c->n_pieces) {
-        const int64_t parts = 6 * (int64_t)s->strikers->n * brc_blocks(l->pair_room, BRC_CONTACT_PAIRS);
+        const int64_t parts = 6 * (int64_t)brc_simulation_n_strikers(s) * brc_blocks(l->pair_room, BRC_CONTACT_PAIRS);
         if (!c->part || parts > c->part_room) {
             c->part_room = parts;
             BRC_TRY(renew(s, &brc_contact_part_fields, parts, c));
@@ -470,7 +470,7 @@ static brc_status search(brc_simulation *s, bool carried)
     BRC_TRY(choose_skin(s));
     BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */
     if (c->torque) BRC_TRY(brc_buffer_fill_zero(c->torque));
-    if (c->n_pieces) BRC_TRY(brc_buffer_fill_zero(s->strikers->load));
+    if (c->n_pieces) BRC_TRY(brc_strikers_set_load(s, NULL));
     return make_list(s, true, carried);
 }
 

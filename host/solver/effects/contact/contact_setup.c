@@ -1,7 +1,7 @@
 /* What contact knows of the elements from the start: where they are, how far they reach, of what they are, which are
  * exposed; and the laws. */
 #include "contact_internal.h"
-#include "../strikers/strikers_internal.h"
+#include "../strikers/striker_contact.h"
 #include <math.h>
 #include <string.h>
 
@@ -142,7 +142,6 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     brc_contact_state *c = s->contact;
     const brc_domain *d = s->domain;
     const brc_layout *layout = s->layout;
-    const brc_strikers *t = s->strikers;
     const int32_t n = layout->n_rows, np = c->n_pieces;
     BRC_TRY(find_exposed(s, number));
     for (int32_t r = 0; r < n; ++r)
@@ -156,14 +155,15 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     for (int32_t r = 0; r < n; ++r)
         number[r] = layout->element_of_row[r] < 0 ? 0 : s->material_of_element[layout->element_of_row[r]];
     for (int32_t p = 0; p < np; ++p)
-        number[n + p] = s->scene->strikers[t->piece_striker[p]].material;
+        number[n + p] = s->scene->strikers[brc_striker_piece_of(s, p).striker].material;
     BRC_TRY(brc_upload_int(c->material, number, n + np));
     for (int32_t r = 0; r < n; ++r) {
         const int32_t e = layout->element_of_row[r];
         value[r] = e < 0 ? 1 : d->volume[e] * s->elastic[s->material_of_element[e]].density;
     }
     for (int32_t p = 0; p < np; ++p)
-        value[n + p] = t->body[t->piece_striker[p]].mass; /* 0 of those that are not free */
+        value[n + p] =
+            brc_simulation_striker_body(s, brc_striker_piece_of(s, p).striker)->mass; /* 0 of those that are not free */
     BRC_TRY(brc_upload_state(s, c->mass, value, n + np));
     for (int32_t r = 0; r < n; ++r)
         value[r] = layout->element_of_row[r] < 0 ? 1 : cbrt(d->volume[layout->element_of_row[r]]);
@@ -193,7 +193,7 @@ brc_status brc_contact_setup(brc_simulation *s)
         c->middle[k] = 0.5 * (d->bounds[0][k] + d->bounds[1][k]);
         c->span += 2 * (d->bounds[1][k] - d->bounds[0][k]);
     }
-    c->n_pieces = s->strikers ? s->strikers->convex.n : 0;
+    c->n_pieces = s->wants.pieces ? s->wants.pieces->n : 0;
     for (int64_t e = 0; e < d->n_elements; ++e)
         volume += d->volume[e];
     c->size = cbrt(volume / (double)d->n_elements);

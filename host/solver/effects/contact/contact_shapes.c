@@ -1,7 +1,7 @@
 /* Polyhedra of the elements and of the strikers' pieces on the device, and where the pieces are. */
 #include "../../../../preprocess/shapes/convex.h"
 #include "contact_internal.h"
-#include "../strikers/strikers_internal.h"
+#include "../strikers/striker_contact.h"
 #include <math.h>
 #include <string.h>
 
@@ -67,12 +67,11 @@ cleanup:
 }
 
 /* Of each piece a ball that holds it, about the middle of its corners; of a plane its normal and height. */
-static void outline(const brc_strikers *t, int32_t p, double out[4])
+static void outline(const brc_convex *v, int32_t p, brc_striker_piece piece, double out[4])
 {
-    const brc_convex *v = &t->convex;
     const int32_t begin = v->corner_start[p], end = v->corner_start[p + 1];
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, most = 0;
-    if (t->piece_kind[p] == BRC_PIECE_PLANE) {
+    if (piece.kind == BRC_PIECE_PLANE) {
         memcpy(out, v->plane + 4 * (int64_t)v->face_start[p], 4 * sizeof *out);
         return;
     }
@@ -89,30 +88,36 @@ static void outline(const brc_strikers *t, int32_t p, double out[4])
             square += (v->corner[3 * k + c] - out[c]) * (v->corner[3 * k + c] - out[c]);
         most = fmax(most, square);
     }
-    out[3] = fmax(sqrt(most), t->piece_radius[p]);
+    out[3] = fmax(sqrt(most), piece.radius);
 }
 
 static brc_status upload_pieces(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const brc_strikers *t = s->strikers;
     const int32_t n = c->n_pieces;
-    int32_t *number = NULL;
-    double *own = NULL;
+    int32_t *striker = NULL, *kind = NULL;
+    double *own = NULL, *radius = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n, "pieces of strikers"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &striker, n, "pieces of strikers"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &kind, n, "pieces of strikers"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &radius, n, "pieces of strikers"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &own, 4 * (int64_t)n, "pieces of strikers"));
-    for (int32_t p = 0; p < n; ++p)
-        outline(t, p, own + 4 * (int64_t)p);
-    for (int32_t p = 0; p < n; ++p)
-        number[p] = (int32_t)t->piece_kind[p];
-    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_striker, t ? t->piece_striker : number, n));
-    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_kind, number, n));
+    for (int32_t p = 0; p < n; ++p) {
+        const brc_striker_piece piece = brc_striker_piece_of(s, p);
+        outline(s->wants.pieces, p, piece, own + 4 * (int64_t)p);
+        striker[p] = piece.striker;
+        kind[p] = (int32_t)piece.kind;
+        radius[p] = piece.radius;
+    }
+    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_striker, striker, n));
+    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_kind, kind, n));
     BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_own, own, 4 * (int64_t)n));
-    if (n) BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_radius, t->piece_radius, n));
+    if (n) BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_radius, radius, n));
 cleanup:
-    brc_memory_free(number);
+    brc_memory_free(striker);
+    brc_memory_free(kind);
     brc_memory_free(own);
+    brc_memory_free(radius);
     return status;
 }
 
@@ -123,7 +128,7 @@ brc_status brc_contact_shapes(brc_simulation *s)
     brc_status status = BRC_OK;
     if (!brc_has_spheres(s)) BRC_TRY_OR(cleanup, brc_convex_of_domain(s->context, s->domain, 0, &cells));
     if (cells.n && c->n_pieces) BRC_TRY_OR(cleanup, brc_strikers_check_edges(s, &cells));
-    BRC_TRY_OR(cleanup, upload_shapes(s, &cells, c->n_pieces ? &s->strikers->convex : &none));
+    BRC_TRY_OR(cleanup, upload_shapes(s, &cells, c->n_pieces ? s->wants.pieces : &none));
     BRC_TRY_OR(cleanup, upload_pieces(s));
 cleanup:
     brc_convex_free(&cells);

@@ -18,4 +18,13 @@ brc_status brc_simulation_touching(brc_simulation *simulation, brc_touching *out
  * brc_simulation_planned_bytes cannot know: how many come near. */
 int64_t brc_simulation_pair_bytes(const brc_simulation *simulation);
 
+/* What contact follows. */
+typedef struct brc_contact_report {
+    int32_t n_pairs, n_listed; /* pairs near each other; exposed elements among which they are looked for */
+    int64_t searches;          /* of all, so far */
+    double n_rigid;            /* cells without bonds, rigid bodies now (dlsm) */
+    int64_t pair_bytes;        /* of all arrays of pairs on the device */
+} brc_contact_report;
+brc_contact_report brc_simulation_contact_report(const brc_simulation *simulation);
+
 #endif

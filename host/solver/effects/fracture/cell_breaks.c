@@ -3,7 +3,7 @@
 #include "../contact/contact.h"
 #include "../../core/rings.h"
 #include "strengths.h"
-#include "../strikers/strikers_internal.h"
+#include "../strikers/striker_contact.h"
 #include <math.h>
 
 static const double never = 1e30; /* CELLS_NEVER of cells.cl */
@@ -191,7 +191,7 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
 {
     brc_cell_breaks *c = s->fracture->cells;
     if (c->by_element) return brc_cell_criteria_mark(s, n);
-    BRC_TRY(BRC_RUN(c->check, s->n_groups, {"share", BRC_COEFF(share)}));
+    BRC_TRY(s->model->breaking->mark(s, share));
     return brc_ahead_count(s, c->found, s->n_groups, n);
 }
 

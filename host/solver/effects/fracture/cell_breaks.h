@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_CELL_BREAKS_H
 #define BRC_SOLVER_CELL_BREAKS_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/rings.h"
 
 typedef struct brc_cell_breaks brc_cell_breaks;
 
@@ -18,8 +18,21 @@ bool brc_cell_breaks_by_bond(const brc_simulation *s);
 brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share);
 /* The same with share 1: bonds that fail break. */
 brc_status brc_cell_breaks_fail(brc_simulation *s, double half_kick);
-extern const brc_field_table brc_cell_break_fields;
 /* The largest ratio of stress to limit. */
 brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out);
+
+/* ---- for models ---- */
+/* The rings around bonds that break; NULL: no cells break. */
+brc_rings *brc_cell_breaks_rings(const brc_simulation *s);
+/* An array of the cells' bonds or of the cells, as kernels call it (brc_cell_break_fields); NULL: not in this run. */
+brc_buffer *brc_cell_breaks_array(const brc_simulation *s, const char *name);
+/* Arrays of the cells' bonds, then of the rings around breaks, then what broken bonds keep. Three scopes, which must
+ * stay where they are. */
+typedef struct brc_cell_scopes {
+    brc_scope breaks, rings, cells;
+} brc_cell_scopes;
+const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *outer, brc_cell_scopes *room);
+/* The room of `measure`, the stresses of marked bonds, which nobody wants once these broke, as `delta`. */
+brc_scope brc_scope_of_deltas(const brc_simulation *s, const brc_scope *outer);
 
 #endif

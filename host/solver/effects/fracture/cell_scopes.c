@@ -11,3 +11,19 @@ const brc_scope *brc_cell_scopes_make(const brc_simulation *s, const brc_scope *
                               .outer = &room->rings};
     return &room->cells;
 }
+
+brc_scope brc_scope_of_deltas(const brc_simulation *s, const brc_scope *outer)
+{
+    static const brc_value_row values[] = {{"delta", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_cell_breaks, measure)}};
+    return (brc_scope){.owner = "changes of the rim", .base = s->fracture->cells, BRC_VALUES(values), .outer = outer};
+}
+
+brc_rings *brc_cell_breaks_rings(const brc_simulation *s)
+{
+    return s->fracture && s->fracture->cells ? s->fracture->cells->rings : NULL;
+}
+
+brc_buffer *brc_cell_breaks_array(const brc_simulation *s, const char *name)
+{
+    return brc_field_named(&brc_cell_break_fields, s->fracture->cells, name);
+}

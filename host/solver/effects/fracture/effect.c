@@ -2,7 +2,7 @@
 #include "../effect.h"
 #include "../../core/live_arrays.h"
 #include "ahead.h"
-#include "cell_breaks.h"
+#include "cell_breaks_internal.h"
 #include "fracture_internal.h"
 #include "../../core/rings.h"
 #include "strengths.h"

@@ -325,9 +325,41 @@ cleanup:
     return status;
 }
 
+const double *brc_fracture_limits(const brc_simulation *s)
+{
+    return s->fracture->limit;
+}
+
+brc_status brc_fracture_judged(brc_simulation *s, double *stress, double *record)
+{
+    const brc_layout *layout = s->layout;
+    const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+    double *rows = NULL;
+    BRC_TRY(brc_coeff_from_rows(s, s->fracture->stress, stress, 6));
+    BRC_TRY(BRC_ALLOCATE(s->context, &rows, 8 * (int64_t)layout->n_rows, "virial records"));
+    const brc_status status = brc_download(s, s->fracture->record, bytes, rows, 8 * (int64_t)layout->n_rows);
+    for (int64_t k = 0; status == BRC_OK && k < 8 * s->domain->n_elements; ++k) {
+        const int64_t r = layout->row_of_element[k / 8];
+        record[k] = rows[(8 * (r / layout->slice) + k % 8) * layout->slice + r % layout->slice];
+    }
+    brc_memory_free(rows);
+    return status;
+}
+
 double brc_simulation_element_strength(const brc_simulation *s, int64_t e)
 {
     return s->fracture && s->fracture->limit ? s->fracture->limit[3 * e] : 0;
+}
+
+brc_buffer *brc_fracture_lost_bonds(const brc_simulation *s)
+{
+    if (!s->fracture) return NULL;
+    return s->fracture->gone ? s->fracture->gone : s->fracture->broken;
+}
+
+brc_buffer *brc_fracture_factors(const brc_simulation *s)
+{
+    return s->fracture->factor;
 }
 
 double brc_simulation_implied_fracture_energy(const brc_simulation *s)

@@ -1,7 +1,7 @@
 /* What broke, for a store (state_store.h): kept of the broken bonds and of the elements that lost one only, since a new
  * simulation has all others right. */
 #include "cell_breaks.h"
-#include "fracture_internal.h"
+#include "cell_breaks_internal.h"
 #include "../../core/state_store.h"
 #include <string.h>
 

@@ -174,6 +174,35 @@ void brc_strikers_free(brc_simulation *s)
     s->strikers = NULL;
 }
 
+brc_striker_piece brc_striker_piece_of(const brc_simulation *s, int32_t p)
+{
+    const brc_strikers *t = s->strikers;
+    return (brc_striker_piece){t->piece_striker[p], t->piece_kind[p], t->piece_radius[p]};
+}
+
+brc_scope brc_scope_of_strikers(const brc_simulation *s, const brc_scope *outer)
+{
+    static const brc_strikers none = {0};
+    static const brc_value_row values[] = {{"striker_pose", BRC_VALUE_BUFFER, AT(pose)},
+                                           {"motion", BRC_VALUE_BUFFER, AT(motion)},
+                                           {"load", BRC_VALUE_BUFFER, AT(load)}};
+    return (brc_scope){
+        .owner = "strikers", .base = s->strikers ? s->strikers : &none, BRC_VALUES(values), .outer = outer};
+}
+
+brc_status brc_strikers_set_load(brc_simulation *s, const double *load)
+{
+    const brc_strikers *t = s->strikers;
+    return load ? brc_upload_state(s, t->load, load, 6 * (int64_t)t->n) : brc_buffer_fill_zero(t->load);
+}
+
+bool brc_strikers_overlap(const brc_simulation *s)
+{
+    for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i)
+        if (s->strikers->told[i]) return true;
+    return false;
+}
+
 /* ---- motion ---- */
 
 static const double *gravity(const brc_simulation *s)
@@ -307,10 +336,10 @@ static void rotation_vector(const double q[4], double out[3])
 brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_now *out)
 {
     const brc_strikers *t = s->strikers;
-    double momentum[3], motion[6], load[6], applied[3] = {0};
+    double motion[6], load[6], applied[3] = {0};
     BRC_TRY(read_one(s, t->displacement, i, 3, out->displacement));
     BRC_TRY(read_one(s, t->orientation, i, 4, out->orientation));
-    BRC_TRY(read_one(s, t->momentum, i, 3, momentum));
+    BRC_TRY(read_one(s, t->momentum, i, 3, out->momentum));
     BRC_TRY(read_one(s, t->motion, i, 6, motion));
     BRC_TRY(read_one(s, t->load, i, 6, load));
     if (t->push) BRC_TRY(read_one(s, t->push, i, 3, applied));
@@ -325,7 +354,7 @@ brc_status brc_simulation_striker_now(brc_simulation *s, int32_t i, brc_striker_
         out->position[c] = t->body[i].centre[c] + out->displacement[c];
         if (is_free(s, i))
             out->kinetic +=
-                0.5 * t->body[i].mass * out->velocity[c] * out->velocity[c] + 0.5 * momentum[c] * out->spin[c];
+                0.5 * t->body[i].mass * out->velocity[c] * out->velocity[c] + 0.5 * out->momentum[c] * out->spin[c];
     }
     return BRC_OK;
 }

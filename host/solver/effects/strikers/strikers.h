@@ -14,6 +14,7 @@ typedef struct brc_striker_now {
     double rotation[3];     /* the same as a rotation vector, at most half a turn long [rad] */
     double velocity[3];     /* of the mass centre [m/s] */
     double spin[3];         /* [rad/s] */
+    double momentum[3];     /* angular, of a free one about its mass centre; else 0 [kg m^2/s] */
     double force[3];        /* of the elements on it [N] */
     double torque[3];       /* the same, about its mass centre [N m] */
     double applied[3];      /* prescribed force on it [N]; else 0 */
@@ -42,5 +43,14 @@ int32_t brc_simulation_n_strikers(const brc_simulation *simulation);
 const brc_striker_body *brc_simulation_striker_body(const brc_simulation *simulation, int32_t striker);
 /* Read from the device. */
 brc_status brc_simulation_striker_now(brc_simulation *simulation, int32_t striker, brc_striker_now *out);
+
+/* Energies of all strikers [J]. */
+typedef struct brc_striker_energies {
+    double kinetic;   /* of free ones */
+    double potential; /* of free ones in gravity, 0 where they started */
+    double work;      /* that driven ones have done on what they touched, and prescribed forces on free ones */
+    double numerical; /* lost to the integrator */
+} brc_striker_energies;
+brc_status brc_strikers_energies(brc_simulation *simulation, brc_striker_energies *out);
 
 #endif

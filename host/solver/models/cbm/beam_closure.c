@@ -1,4 +1,5 @@
 #include "beam_closure.h"
+#include "cbm.h"
 #include "../../effects/fracture/ahead.h"
 #include "beam_softening.h"
 
@@ -32,7 +33,7 @@ BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN,
 
 static beam_closure *closure_of(const brc_simulation *s)
 {
-    return s->fracture ? s->fracture->beam_closure : NULL;
+    return brc_cbm_own_of(s)->closure;
 }
 /* A static stage solves a body whose broken bonds bear nothing (docs/notebook/fracture.md). */
 static bool bears_now(const brc_simulation *s)
@@ -90,8 +91,8 @@ static brc_status make_passes(brc_simulation *s, beam_closure *f)
 brc_status brc_beam_closure_create(brc_simulation *s)
 {
     if (!brc_wants_lost_beams(&s->wants)) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_closure, 1, "broken beams"));
-    beam_closure *f = s->fracture->beam_closure;
+    BRC_TRY(BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->closure, 1, "broken beams"));
+    beam_closure *f = brc_cbm_own_of(s)->closure;
     BRC_TRY(brc_fields_create(s->device, &brc_beam_closure_fields, &s->wants, f));
     f->leans = f->lean != NULL;
     BRC_TRY(make_passes(s, f));
@@ -104,7 +105,7 @@ void brc_beam_closure_free(brc_simulation *s)
     if (!f) return;
     brc_fields_free(&brc_beam_closure_fields, f);
     brc_memory_free(f);
-    s->fracture->beam_closure = NULL;
+    brc_cbm_own_of(s)->closure = NULL;
 }
 
 /* ---- an evaluation ---- */

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_BEAM_CLOSURE_H
 #define BRC_SOLVER_BEAM_CLOSURE_H
 
-#include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/fracture/breaking.h"
 
 extern const brc_field_table brc_beam_closure_fields;
 

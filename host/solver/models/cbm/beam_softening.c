@@ -1,4 +1,5 @@
 #include "beam_softening.h"
+#include "cbm.h"
 #include "../../effects/fracture/bond_area.h"
 #include "../../effects/fracture/crack_range.h"
 #include <math.h>
@@ -38,7 +39,7 @@ BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, so
 
 static beam_softening *softening_of(const brc_simulation *s)
 {
-    return s->fracture ? s->fracture->beam_softening : NULL;
+    return brc_cbm_own_of(s)->softening;
 }
 bool brc_beam_softening_is_on(const brc_simulation *s)
 {
@@ -137,11 +138,11 @@ cleanup:
 
 brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *strengths)
 {
-    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->beam_softening, 1, "cohesion of beams"));
-    BRC_TRY(make_passes(s, s->fracture->beam_softening));
+    BRC_TRY(BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->softening, 1, "cohesion of beams"));
+    BRC_TRY(make_passes(s, brc_cbm_own_of(s)->softening));
     BRC_TRY(warn_of_size(s, strengths));
-    BRC_TRY(brc_fields_create(s->device, &brc_beam_softening_fields, &s->wants, s->fracture->beam_softening));
-    return upload_bonds(s, s->fracture->beam_softening, strengths);
+    BRC_TRY(brc_fields_create(s->device, &brc_beam_softening_fields, &s->wants, brc_cbm_own_of(s)->softening));
+    return upload_bonds(s, brc_cbm_own_of(s)->softening, strengths);
 }
 
 void brc_beam_softening_free(brc_simulation *s)
@@ -150,7 +151,7 @@ void brc_beam_softening_free(brc_simulation *s)
     if (!f) return;
     brc_fields_free(&brc_beam_softening_fields, f);
     brc_memory_free(f);
-    s->fracture->beam_softening = NULL;
+    brc_cbm_own_of(s)->softening = NULL;
 }
 
 /* ---- an evaluation ---- */
@@ -238,7 +239,7 @@ brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *st
     if (!f) return BRC_OK;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_beam_softening_fields, .owner = f}));
     BRC_TRY(brc_store_entry(
-        s, store, &(brc_state_entry){"softening.factor", s->fracture->factor, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL}));
+        s, store, &(brc_state_entry){"softening.factor", brc_fracture_factors(s), BRC_ENTRIES, BRC_OF_COEFF, 1, NULL}));
     return store->loading ? find_touched(s, f) : BRC_OK;
 }
 

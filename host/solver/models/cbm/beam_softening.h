@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_BEAM_SOFTENING_H
 #define BRC_SOLVER_BEAM_SOFTENING_H
 
-#include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/fracture/breaking.h"
 #include "../../effects/fracture/strengths.h"
 
 extern const brc_field_table brc_beam_softening_fields;
@@ -12,7 +12,7 @@ extern const brc_field_table brc_beam_softening_fields;
 /* Openings over the length of a broken beam from which on its ends stand clear of each other. */
 #define BRC_BEAM_CLEAR 0.05
 
-/* Arrays and kernels; s->fracture->factor is there. Warns where E G_c / sigma_f^2 is too short for the spheres. */
+/* Arrays and kernels; the factors of bonds are there. Warns where E G_c / sigma_f^2 is too short for the spheres. */
 brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *strengths);
 void brc_beam_softening_free(brc_simulation *s);
 bool brc_beam_softening_is_on(const brc_simulation *s);

@@ -4,7 +4,7 @@
 #include "cbm.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
-#include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/fracture/breaking.h"
 #include <lapacke.h>
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #include "../../laws/beam_law.h"
 #include "beam_softening.h"
 #include "../../effects/contact/contact.h"
-#include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/fracture/breaking.h"
 #include "../../laws/strength_law.h"
 #include "cbm.h"
 #include <math.h>
@@ -73,19 +73,19 @@ brc_status brc_cbm_limits(brc_simulation *s, const brc_limit_case *of, double li
 
 brc_status brc_cbm_create_fracture(brc_simulation *s)
 {
-    brc_breaking *f = s->fracture;
+    brc_cbm_own *own = brc_cbm_own_of(s);
     BRC_TRY(brc_fracture_create_elements(s, s->offset));
     const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run),
                     breaks = brc_scope_of_breaks(s, &run), criterion = brc_scope_of_criterion(s, &breaks),
                     evaluation = brc_scope_of_criterion(s, &request);
-    BRC_TRY(BRC_PASSES(s, &criterion, BRC_PASS(&f->break_pass, "fracture_break", "level step half_kick")));
-    BRC_TRY(BRC_PASSES(s, &evaluation, BRC_PASS(&f->force, "fracture_force", NULL)));
+    BRC_TRY(BRC_PASSES(s, &criterion, BRC_PASS(&own->break_pass, "fracture_break", "level step half_kick")));
+    BRC_TRY(BRC_PASSES(s, &evaluation, BRC_PASS(&own->breaking_force, "fracture_force", NULL)));
     return brc_beam_closure_create(s);
 }
 
 brc_status brc_cbm_breaking_force(brc_simulation *s, const brc_force_request *r)
 {
-    BRC_TRY(brc_pass_run_on(s->fracture->force, s->n_groups, r, NULL, NULL));
+    BRC_TRY(brc_pass_run_on(brc_cbm_own_of(s)->breaking_force, s->n_groups, r, NULL, NULL));
     BRC_TRY(brc_beam_softening_force(s, r));
     return brc_beam_closure_force(s, r);
 }
@@ -95,7 +95,7 @@ brc_status brc_cbm_break_bonds(brc_simulation *s, double half_kick)
     const int32_t moment = (int32_t)brc_fracture_moment(s);
     BRC_TRY(brc_fracture_choose(s, moment));
     BRC_TRY(brc_beam_softening_begin(s, moment));
-    BRC_TRY(BRC_RUN(s->fracture->break_pass, s->n_groups, {"level", BRC_INT(s->scene->fracture.level)},
+    BRC_TRY(BRC_RUN(brc_cbm_own_of(s)->break_pass, s->n_groups, {"level", BRC_INT(s->scene->fracture.level)},
                     {"step", BRC_INT(moment)}, {"half_kick", BRC_STATE(half_kick)}));
     BRC_TRY(brc_beam_softening_end(s, moment));
     BRC_TRY(brc_beam_closure_begin(s, moment, half_kick));

@@ -7,6 +7,9 @@
 /* What a run of it keeps. */
 typedef struct brc_cbm_own {
     brc_pass *force, *energy, *virial;
+    brc_pass *breaking_force, *break_pass; /* only with fracture */
+    struct brc_beam_softening *softening;  /* beams that open against cohesion (beam_softening.c); NULL: none does */
+    struct brc_beam_closure *closure;      /* broken beams that bear (beam_closure.c); NULL: none does */
 } brc_cbm_own;
 static inline brc_cbm_own *brc_cbm_own_of(const brc_simulation *s)
 {

@@ -1,7 +1,7 @@
 /* Forces and energies of cbm: the order of its passes (docs/notebook/beams.md). */
 #include "beam_closure.h"
 #include "beam_softening.h"
-#include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/fracture/breaking.h"
 #include "cbm.h"
 
 brc_status brc_cbm_evaluate(brc_simulation *s, const brc_force_request *r)

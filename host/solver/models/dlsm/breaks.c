@@ -1,5 +1,4 @@
 /* Bonds of dlsm that break (docs/notebook/fracture.md, "Fracture of cells"). */
-#include "../../effects/fracture/cell_breaks_internal.h"
 #include "cell_softening.h"
 #include "../../core/sym3.h"
 #include "consistent.h"
@@ -53,7 +52,6 @@ static void support_of(const brc_simulation *s, int64_t e, double *least, double
 static brc_status upload_elements(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
-    brc_cell_breaks *cells = s->fracture->cells;
     double *modulus = NULL, *support = NULL, *stiffest = NULL, largest = 0;
     brc_status status = BRC_OK;
     int64_t weak = 0;
@@ -82,9 +80,9 @@ static brc_status upload_elements(brc_simulation *s)
                 "up to %.2g) that they come off with "
                 "their first broken bond; a relaxed grid (`lloyd`) has fewer",
                 (long long)weak, (long long)s->domain->n_elements, support_least);
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->modulus, modulus, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->support, support, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->stiffest, stiffest, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "plane"), modulus, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "support"), support, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "stiffest"), stiffest, layout->n_rows));
 cleanup:
     brc_memory_free(modulus);
     brc_memory_free(support);
@@ -92,9 +90,10 @@ cleanup:
     return status;
 }
 
-static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
+static brc_status make_passes(brc_simulation *s)
 {
-    const bool whole = c->by_element;
+    brc_dlsm_own *c = brc_dlsm_own_of(s);
+    const bool whole = !brc_cell_breaks_by_bond(s);
     const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run);
     brc_cell_scopes of_state, of_request;
     const brc_scope *state = brc_cell_scopes_make(s, &run, &of_state);
@@ -104,22 +103,26 @@ static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
                        BRC_PASS(&c->bonds, "dlsm_bonds_listed", BRC_LISTED)));
     /* a request is asked first */
     const brc_scope evaluation = brc_scope_of_request(brc_cell_scopes_make(s, &request, &of_request));
-    BRC_TRY(BRC_PASSES(s, &evaluation, {&c->force, "cells_force", NULL, whole},
-                       {&c->force_listed, "cells_force_listed", BRC_LISTED, whole}));
+    BRC_TRY(BRC_PASSES(s, &evaluation, {&c->screening_force, "cells_force", NULL, whole},
+                       {&c->screening_force_listed, "cells_force_listed", BRC_LISTED, whole}));
     return brc_rims_make_passes(s, state);
 }
 
 brc_status brc_dlsm_breaks_create(brc_simulation *s)
 {
     BRC_TRY(upload_elements(s));
-    return make_passes(s, s->fracture->cells);
+    return make_passes(s);
+}
+
+brc_status brc_dlsm_mark(brc_simulation *s, double share)
+{
+    return BRC_RUN(brc_dlsm_own_of(s)->check, s->n_groups, {"share", BRC_COEFF(share)});
 }
 
 brc_status brc_dlsm_rebuild(brc_simulation *s, double *left)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
-    BRC_TRY(brc_pass_run(c->rebuild, s->n_groups));
-    return brc_vector_sum(s, c->found, s->n_groups, left);
+    BRC_TRY(brc_pass_run(brc_dlsm_own_of(s)->rebuild, s->n_groups));
+    return brc_vector_sum(s, brc_cell_breaks_array(s, "found"), s->n_groups, left);
 }
 
 bool brc_dlsm_screens(const brc_simulation *s)
@@ -129,20 +132,19 @@ bool brc_dlsm_screens(const brc_simulation *s)
 
 brc_status brc_dlsm_screening_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
-    return brc_pass_over(s, c->force, c->force_listed, list, ring, r, NULL);
+    const brc_dlsm_own *c = brc_dlsm_own_of(s);
+    return brc_pass_over(s, c->screening_force, c->screening_force_listed, list, ring, r, NULL);
 }
 
 brc_status brc_dlsm_ratio(brc_simulation *s, double *out)
 {
-    brc_cell_breaks *c = s->fracture->cells;
     brc_buffer *ratio = NULL;
     double *value = NULL;
     brc_status status = BRC_OK;
     *out = 0;
     BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_RUN(c->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
+    BRC_TRY_OR(cleanup, BRC_RUN(brc_dlsm_own_of(s)->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
     BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
     for (int64_t e = 0; e < s->domain->n_elements; ++e)
         *out = fmax(*out, value[e]);
@@ -155,7 +157,7 @@ cleanup:
 /* Areas and ratios are stored in place of branches. */
 brc_status brc_dlsm_branches(brc_simulation *s, brc_buffer **out)
 {
-    *out = s->fracture->cells->branch;
+    *out = brc_cell_breaks_array(s, "own_branch");
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t slice = layout->slice;

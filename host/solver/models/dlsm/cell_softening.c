@@ -1,5 +1,4 @@
 #include "cell_softening.h"
-#include "../../effects/fracture/cell_breaks_internal.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
 #include "dlsm.h"
@@ -75,7 +74,7 @@ BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens
 
 static softening_faces *faces_of(const brc_simulation *s)
 {
-    return s->fracture && s->fracture->cells ? s->fracture->cells->softening : NULL;
+    return brc_dlsm_own_of(s)->softening;
 }
 bool brc_softening_is_on(const brc_simulation *s)
 {
@@ -203,13 +202,13 @@ cleanup:
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
 {
     if (!strengths->softens) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->softening, 1, "cohesion of faces"));
-    BRC_TRY(make_passes(s, s->fracture->cells->softening));
+    BRC_TRY(BRC_ALLOCATE(s->context, &brc_dlsm_own_of(s)->softening, 1, "cohesion of faces"));
+    BRC_TRY(make_passes(s, brc_dlsm_own_of(s)->softening));
     BRC_TRY(warn_of_size(s, strengths));
-    BRC_TRY(brc_fields_create(s->device, &brc_softening_fields, &s->wants, s->fracture->cells->softening));
-    BRC_TRY(brc_fields_create(s->device, &brc_open_list_fields, &s->wants, &s->fracture->cells->softening->around));
-    BRC_TRY(upload_shear(s, s->fracture->cells->softening, strengths));
-    return upload_faces(s, s->fracture->cells->softening, strengths);
+    BRC_TRY(brc_fields_create(s->device, &brc_softening_fields, &s->wants, brc_dlsm_own_of(s)->softening));
+    BRC_TRY(brc_fields_create(s->device, &brc_open_list_fields, &s->wants, &brc_dlsm_own_of(s)->softening->around));
+    BRC_TRY(upload_shear(s, brc_dlsm_own_of(s)->softening, strengths));
+    return upload_faces(s, brc_dlsm_own_of(s)->softening, strengths);
 }
 
 void brc_softening_free(brc_simulation *s)
@@ -219,7 +218,7 @@ void brc_softening_free(brc_simulation *s)
     brc_fields_free(&brc_softening_fields, f);
     brc_fields_free(&brc_open_list_fields, &f->around);
     brc_memory_free(f);
-    s->fracture->cells->softening = NULL;
+    brc_dlsm_own_of(s)->softening = NULL;
 }
 
 /* ---- an evaluation ---- */
@@ -285,7 +284,7 @@ static brc_status sweep(brc_simulation *s, int k)
 static brc_status list_around(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
-    brc_rings *rings = s->fracture->cells->rings;
+    brc_rings *rings = brc_cell_breaks_rings(s);
     if (f->is_listed && f->lists == brc_contact_lists(s)) return BRC_OK;
     BRC_TRY(brc_rings_seed(s, rings, f->n_open));
     BRC_TRY(brc_contact_list_around(s, rings->touched));
@@ -335,24 +334,24 @@ brc_status brc_softening_refresh(brc_simulation *s)
 brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
 {
     softening_faces *f = faces_of(s);
-    brc_cell_breaks *c = s->fracture->cells;
+    brc_buffer *found = brc_cell_breaks_array(s, "found");
     const int32_t n = s->layout->n_rows;
     double wished, brittle = 0;
     *n_ended = 0;
     if (f->any) { /* what opened before this step */
         BRC_TRY(measure(s, 1));
-        BRC_TRY(brc_vector_sum(s, c->found, n, n_ended));
+        BRC_TRY(brc_vector_sum(s, found, n, n_ended));
         BRC_TRY(BRC_RUN(f->book, n, {"step", BRC_INT((int32_t)brc_fracture_moment(s))}));
     }
     BRC_TRY(BRC_RUN(f->check, s->n_groups, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
                     {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
                     {"slope", BRC_COEFF(sin(s->scene->fracture.friction))},
                     {"shear_least", BRC_COEFF(f->shear_least)}));
-    BRC_TRY(brc_vector_sum(s, c->found, n, &wished));
+    BRC_TRY(brc_vector_sum(s, found, n, &wished));
     if (wished > 0) {
         f->any = true;
         BRC_TRY(BRC_RUN(f->begin, n, {"friction", BRC_COEFF(friction_of(s))}));
-        BRC_TRY(brc_vector_sum(s, c->found, n, &brittle));
+        BRC_TRY(brc_vector_sum(s, found, n, &brittle));
         BRC_TRY(brc_softening_recount(s));
     }
     *n_ended += brittle;
@@ -381,7 +380,7 @@ static brc_status rejoin(brc_simulation *s, softening_faces *f)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n, "unbroken bonds"));
     BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
     BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n));
-    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive,
+    BRC_TRY_OR(cleanup, brc_download(s, brc_cell_breaks_array(s, "alive"),
                                      brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0)
@@ -400,8 +399,8 @@ brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
     if (!f) return BRC_OK;
     f->is_listed = false;
     const brc_state_entry changed[] = {
-        {"softening.limit", s->fracture->cells->limit, BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
-        {"softening.least", s->fracture->cells->least, BRC_ROWS, BRC_OF_COEFF, 1, NULL},
+        {"softening.limit", brc_cell_breaks_array(s, "limit"), BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
+        {"softening.least", brc_cell_breaks_array(s, "least"), BRC_ROWS, BRC_OF_COEFF, 1, NULL},
     };
     BRC_TRY(brc_store_flag(store, "softening.any", &f->any));
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_softening_fields, .owner = f}));
@@ -435,7 +434,7 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open faces"));
     BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
     BRC_TRY_OR(cleanup, brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_download(s, s->fracture->cells->alive, bytes, alive, n_entries));
+    BRC_TRY_OR(cleanup, brc_download(s, brc_cell_breaks_array(s, "alive"), bytes, alive, n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;

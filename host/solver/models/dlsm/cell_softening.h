@@ -11,7 +11,7 @@
 extern const brc_field_table brc_softening_fields;
 
 /* Arrays and kernels, where strengths->softens; warns of bonds that are too long for their fracture energy.
- * s->fracture->cells is there. */
+ * the breaks of cells are there. */
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths);
 void brc_softening_free(brc_simulation *s);
 bool brc_softening_is_on(const brc_simulation *s);

@@ -1,5 +1,5 @@
 #include "closed_faces.h"
-#include "../../effects/fracture/cell_breaks_internal.h"
+#include "dlsm.h"
 #include "cell_softening.h"
 #include "rims.h"
 #include <limits.h>
@@ -23,7 +23,7 @@ typedef struct brc_closed_faces closed_faces;
 
 static closed_faces *faces_of(const brc_simulation *s)
 {
-    return s->fracture && s->fracture->cells ? s->fracture->cells->closed : NULL;
+    return brc_dlsm_own_of(s)->closed;
 }
 
 /* In static stages and modes the sides know nothing of each other, as other surfaces (contact.c). */
@@ -133,8 +133,8 @@ static brc_status make_passes(brc_simulation *s, closed_faces *f)
 brc_status brc_closed_faces_create(brc_simulation *s)
 {
     if (!shuts(&s->wants)) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells->closed, 1, "broken faces"));
-    closed_faces *f = s->fracture->cells->closed;
+    BRC_TRY(BRC_ALLOCATE(s->context, &brc_dlsm_own_of(s)->closed, 1, "broken faces"));
+    closed_faces *f = brc_dlsm_own_of(s)->closed;
     BRC_TRY(make_passes(s, f));
     BRC_TRY(brc_fields_create(s->device, &brc_closed_face_fields, &s->wants, f));
     BRC_TRY(upload_next(s, f));
@@ -147,7 +147,7 @@ void brc_closed_faces_free(brc_simulation *s)
     if (!f) return;
     brc_fields_free(&brc_closed_face_fields, f);
     brc_memory_free(f);
-    s->fracture->cells->closed = NULL;
+    brc_dlsm_own_of(s)->closed = NULL;
 }
 
 /* ---- an evaluation ---- */
@@ -169,7 +169,7 @@ brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, 
 {
     const closed_faces *f = faces_of(s);
     if (!acts(s, r)) return BRC_OK;
-    const brc_rings *rings = s->fracture->cells->rings;
+    const brc_rings *rings = brc_cell_breaks_rings(s);
     const bool whole = brc_pass_is_whole(s, list, ring), deltas = r->rings && brc_rims_add(s, r->rings);
     const int32_t n = whole ? s->n_groups : list->n[ring];
     return BRC_RUN(f->flux, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])},

@@ -10,7 +10,7 @@
 
 extern const brc_field_table brc_closed_face_fields;
 
-/* Arrays and kernels. s->fracture->cells is there, with what softens. */
+/* Arrays and kernels. the breaks of cells are there, with what softens. */
 brc_status brc_closed_faces_create(brc_simulation *s);
 void brc_closed_faces_free(brc_simulation *s);
 

@@ -2,14 +2,17 @@
 #ifndef BRC_SOLVER_MODELS_DLSM_DLSM_H
 #define BRC_SOLVER_MODELS_DLSM_DLSM_H
 
-#include "../../core/rings.h"
-#include "../../core/simulation_internal.h"
+#include "../../effects/fracture/breaking.h"
 
 /* What a run of it keeps. */
 typedef struct brc_dlsm_own {
     brc_pass *gradient, *stress, *flux, *flux_linear, *force, *energy, *deformation, *face_displacement;
     brc_pass *gradient_listed, *stress_listed, *flux_listed, *force_listed, *energy_listed; /* only with fracture */
     brc_pass *held_gradient, *held_moment, *held_force, *traction_moment, *traction_force;
+    brc_pass *screening_force, *screening_force_listed, *check, *ratio, *rebuild, *elastic, *bonds; /* breaks.c */
+    brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force;                                   /* rims.c */
+    struct brc_softening_faces *softening; /* faces that open against cohesion (cell_softening.c); NULL: none does */
+    struct brc_closed_faces *closed; /* sides of broken faces that bear on each other (closed_faces.c); NULL: none do */
     struct {
         int gradient, stress, flux, force;
     } ring; /* the last ring around broken bonds where each has other results (brc_passes_rings) */
@@ -40,6 +43,7 @@ brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, boo
 
 /* ---- breaks.c: as brc_model_breaking says ---- */
 brc_status brc_dlsm_breaks_create(brc_simulation *s);
+brc_status brc_dlsm_mark(brc_simulation *s, double share);
 brc_status brc_dlsm_rebuild(brc_simulation *s, double *left);
 brc_status brc_dlsm_ratio(brc_simulation *s, double *out);
 brc_status brc_dlsm_branches(brc_simulation *s, brc_buffer **out);

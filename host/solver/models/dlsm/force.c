@@ -1,5 +1,4 @@
 /* Forces and energies of dlsm: the order of its passes (docs/notebook/theory.md T2). */
-#include "../../effects/fracture/cell_breaks_internal.h"
 #include "cell_softening.h"
 #include "closed_faces.h"
 #include "../../effects/contact/contact.h"
@@ -137,13 +136,12 @@ static brc_status element_energies(brc_simulation *s, const brc_ring_list *list,
 /* V psi of elements of a list ... */
 static brc_status elastic_around(brc_simulation *s, const brc_ring_list *list, int ring)
 {
-    return brc_pass_over(s, NULL, s->fracture->cells->elastic, list, ring, NULL, NULL);
+    return brc_pass_over(s, NULL, brc_dlsm_own_of(s)->elastic, list, ring, NULL, NULL);
 }
 /* ... and the energies of their bonds, each once. */
 static brc_status bonds_around(brc_simulation *s, const brc_ring_list *list, int ring)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
-    return brc_pass_over(s, NULL, c->bonds, list, ring, NULL, NULL);
+    return brc_pass_over(s, NULL, brc_dlsm_own_of(s)->bonds, list, ring, NULL, NULL);
 }
 
 /* Rings 0 and 1 have other strains, bonds of ring 0 alone other energies. */

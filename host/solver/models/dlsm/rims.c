@@ -1,6 +1,6 @@
 #include "rims.h"
-#include "../../effects/fracture/cell_breaks_internal.h"
 #include "cell_softening.h"
+#include "dlsm.h"
 
 bool brc_rims_energies_apart(const brc_simulation *s)
 {
@@ -24,15 +24,9 @@ bool brc_rims_add(const brc_simulation *s, const brc_rings *rings)
            2 * 9 * (int64_t)brc_rims_records(rings) <= s->layout->n_slots * s->layout->slice;
 }
 
-brc_scope brc_scope_of_deltas(const brc_simulation *s, const brc_scope *outer)
-{
-    static const brc_value_row values[] = {{"delta", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_cell_breaks, measure)}};
-    return (brc_scope){.owner = "changes of the rim", .base = s->fracture->cells, BRC_VALUES(values), .outer = outer};
-}
-
 brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells)
 {
-    brc_cell_breaks *c = s->fracture->cells;
+    brc_dlsm_own *c = brc_dlsm_own_of(s);
     const brc_scope deltas = brc_scope_of_deltas(s, cells), request = brc_scope_of_request(&deltas);
     const brc_pass_wanted of_request[] = {
         BRC_PASS(&c->rim_stress, "rim_stress", BRC_LISTED " deltas"),
@@ -45,14 +39,14 @@ brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells)
 
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_dlsm_own *c = brc_dlsm_own_of(s);
     return brc_pass_over(s, NULL, c->rim_stress, &r->rings->around, 1, r,
                          BRC_GIVEN({"deltas", BRC_INT(brc_rims_add(s, r->rings) ? 1 : 0)}));
 }
 
 brc_status brc_rims_flux(brc_simulation *s, const brc_force_request *r, bool moments)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_dlsm_own *c = brc_dlsm_own_of(s);
     const brc_rings *rings = r->rings;
     const brc_arg records = BRC_INT(brc_rims_records(rings));
     BRC_TRY(brc_pass_over(s, NULL, c->rim_inner_flux, &rings->around, 1, r,
@@ -62,7 +56,7 @@ brc_status brc_rims_flux(brc_simulation *s, const brc_force_request *r, bool mom
 
 brc_status brc_rims_force(brc_simulation *s, const brc_rings *rings)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_dlsm_own *c = brc_dlsm_own_of(s);
     if (!brc_rims_add(s, rings)) return BRC_OK;
     return brc_pass_over(s, NULL, c->rim_force, &rings->around, 3, NULL,
                          BRC_GIVEN({"fluxes", BRC_INT(brc_rims_records(rings))}));

@@ -18,10 +18,8 @@ bool brc_rims_add(const brc_simulation *s, const brc_rings *rings);
 /* Of each of the two gains: those of B follow those of P. */
 int32_t brc_rims_records(const brc_rings *rings);
 
-/* Passes, in the scopes of cells that break (cell_breaks_internal.h). */
+/* Passes, in the scopes of cells that break (cell_breaks.h). */
 brc_status brc_rims_make_passes(brc_simulation *s, const brc_scope *cells);
-/* What P and B gain stands where the stresses of marked bonds were. */
-brc_scope brc_scope_of_deltas(const brc_simulation *s, const brc_scope *outer);
 /* P of rings 0 and 1 with what their elements hold, elastic_energy, and what P gained where the rim wants it. */
 brc_status brc_rims_stress(brc_simulation *s, const brc_force_request *r);
 /* B of the rings 0 to 2 where the rim is done so, 0 and 1 as a whole. moments: there are moments of faces

@@ -1,6 +1,5 @@
 /* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of
  * published_breaks.cl. */
-#include "../../effects/fracture/cell_breaks_internal.h"
 #include "../../core/sym3.h"
 #include "published.h"
 #include <math.h>
@@ -37,12 +36,13 @@ static double support_of(const brc_simulation *s, int64_t e, double projector[6]
     return fmax(support_share * value[0], span_least * value[2]);
 }
 
-static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
+static brc_status make_passes(brc_simulation *s)
 {
+    brc_published_own *c = brc_published_own_of(s);
     const brc_scope run = brc_scope_of_run(s);
     brc_cell_scopes scopes;
     const brc_scope *cells = brc_cell_scopes_make(s, &run, &scopes), request = brc_scope_of_request(cells);
-    const bool by_element = c->by_element;
+    const bool by_element = !brc_cell_breaks_by_bond(s);
     const brc_pass_wanted of_request[] = {
         BRC_PASS(&c->breaking_strain, "published_breaking_strain", NULL),
         BRC_PASS(&c->breaking_strain_listed, "published_breaking_strain_listed", BRC_LISTED),
@@ -55,11 +55,10 @@ static brc_status make_passes(brc_simulation *s, brc_cell_breaks *c)
 
 brc_status brc_published_breaks_create(brc_simulation *s)
 {
-    brc_cell_breaks *c = s->fracture->cells;
     const brc_layout *layout = s->layout;
     double *support = NULL, *spanned = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY(make_passes(s, c));
+    BRC_TRY(make_passes(s));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spanned, 6 * (int64_t)layout->n_rows, "supports"));
 #pragma omp parallel for schedule(static)
@@ -69,8 +68,8 @@ brc_status brc_published_breaks_create(brc_simulation *s)
         for (int k = 0; k < 6; ++k)
             spanned[(int64_t)(r / layout->slice * 6 + k) * layout->slice + r % layout->slice] = projector[k];
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->spanned, spanned, 6 * (int64_t)layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, c->support, support, layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "spanned"), spanned, 6 * (int64_t)layout->n_rows));
+    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "support"), support, layout->n_rows));
 cleanup:
     brc_memory_free(support);
     brc_memory_free(spanned);
@@ -79,21 +78,26 @@ cleanup:
 
 brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_published_own *c = brc_published_own_of(s);
     return brc_pass_over(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? &r->rings->around : NULL, 0, r,
                          NULL);
 }
 
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_published_own *c = brc_published_own_of(s);
     const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
     return brc_pass_over(s, c->breaking_force, c->breaking_force_listed, list, 2, r, NULL);
 }
 
+brc_status brc_published_mark(brc_simulation *s, double share)
+{
+    return BRC_RUN(brc_published_own_of(s)->check, s->n_groups, {"share", BRC_COEFF(share)});
+}
+
 brc_status brc_published_rebuild(brc_simulation *s, double *left)
 {
-    const brc_cell_breaks *c = s->fracture->cells;
+    const brc_published_own *c = brc_published_own_of(s);
     *left = 0; /* elements hang on by any bond */
     return brc_pass_run(c->rebuild, s->layout->n_rows);
 }
@@ -103,7 +107,7 @@ brc_status brc_published_ratio(brc_simulation *s, double *out)
     double *value = NULL;
     *out = 0;
     BRC_TRY(BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    const brc_status status = brc_coeff_from_rows(s, s->fracture->cells->bond_ratio, value, 1);
+    const brc_status status = brc_coeff_from_rows(s, brc_cell_breaks_array(s, "bond_ratio"), value, 1);
     for (int64_t e = 0; status == BRC_OK && e < s->domain->n_elements; ++e)
         *out = fmax(*out, value[e]);
     brc_memory_free(value);

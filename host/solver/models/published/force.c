@@ -1,5 +1,4 @@
 /* Forces and energies of dlsm-published: the order of its passes (docs/notebook/theory.md T3). */
-#include "../../effects/fracture/cell_breaks_internal.h"
 #include "../../effects/loads/loads.h"
 #include "published.h"
 

@@ -7,6 +7,7 @@ static const brc_model_breaking breaking = {.create = brc_published_breaks_creat
                                             .area_width = 1,
                                             .record = "cells_record_published",
                                             .branches = brc_published_branches,
+                                            .mark = brc_published_mark,
                                             .rebuild = brc_published_rebuild,
                                             .places = brc_published_places,
                                             .ratio = brc_published_ratio,

@@ -2,13 +2,13 @@
 #ifndef BRC_SOLVER_MODELS_PUBLISHED_PUBLISHED_H
 #define BRC_SOLVER_MODELS_PUBLISHED_PUBLISHED_H
 
-#include "../../core/rings.h"
-#include "../../core/simulation_internal.h"
+#include "../../effects/fracture/breaking.h"
 
 /* What a run of it keeps. */
 typedef struct brc_published_own {
     brc_pass *strain, *force, *energy, *traction;
     brc_pass *force_listed, *energy_listed; /* only with fracture */
+    brc_pass *breaking_strain, *breaking_force, *breaking_strain_listed, *breaking_force_listed, *rebuild, *check;
 } brc_published_own;
 static inline brc_published_own *brc_published_own_of(const brc_simulation *s)
 {
@@ -41,6 +41,7 @@ brc_status brc_published_breaks_create(brc_simulation *s);
 brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r);
 /* Forces of the full law, with what marks and ratios need. */
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r);
+brc_status brc_published_mark(brc_simulation *s, double share);
 brc_status brc_published_rebuild(brc_simulation *s, double *left);
 brc_status brc_published_ratio(brc_simulation *s, double *out);
 brc_status brc_published_branches(brc_simulation *s, brc_buffer **out);

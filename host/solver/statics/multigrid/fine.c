@@ -1,5 +1,5 @@
 #include "fine.h"
-#include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/fracture/breaking.h"
 #include "../../effects/loads/loads.h"
 #include <math.h>
 

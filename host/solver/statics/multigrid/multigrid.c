@@ -1,6 +1,6 @@
 /* Levels, made on the host one after the other and uploaded. */
 #include "multigrid_internal.h"
-#include "../../effects/fracture/fracture_internal.h"
+#include "../../effects/fracture/breaking.h"
 #include <math.h>
 #include <omp.h>
 #include <string.h>

@@ -18,11 +18,11 @@ static double *outcome_of(case_options o, int64_t *n, double *rigid, brc_touchin
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_simulation_advance(c.simulation, 400));
     *n = 3 * c.domain->n_elements;
-    *rigid = c.simulation->contact->n_rigid;
+    *rigid = brc_simulation_contact_report(c.simulation).n_rigid;
     double *out = calloc((size_t)(3 * *n), sizeof *out);
     assert_done(&c, brc_simulation_displacement(c.simulation, out));
     assert_done(&c, brc_simulation_velocity(c.simulation, out + *n));
-    assert_done(&c, brc_state_from_rows(c.simulation, c.simulation->contact->momentum, out + 2 * *n, 3));
+    assert_done(&c, brc_contact_momenta(c.simulation, out + 2 * *n));
     assert_done(&c, brc_simulation_touching(c.simulation, touching));
     close_case(&c);
     return out;

@@ -2,7 +2,8 @@
 #ifndef BRC_TESTS_SOLVER_CONTACT_CASE_H
 #define BRC_TESTS_SOLVER_CONTACT_CASE_H
 
-#include "../../../../host/solver/effects/contact/contact_internal.h"
+#include "../../../../host/solver/effects/contact/contact.h"
+#include "../../../../host/solver/effects/contact/touching.h"
 #include "../fracture/cells_case.h"
 
 /* Pressed together along x and y while it bursts, so that what broke off meets again. */

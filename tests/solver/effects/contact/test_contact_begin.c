@@ -14,12 +14,12 @@ static void a_stage_begins_with_the_pairs_of_its_own_state(void **state)
                                  .stages = "  - name: rest\n    solver: {dynamic: {steps: 10}}\n",
                                  .n_threads = 1});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-    const int32_t begun = c.simulation->contact->now.n_pairs;
+    const int32_t begun = brc_simulation_contact_report(c.simulation).n_pairs;
     assert_done(&c, brc_contact_search(c.simulation));
-    assert_int_equal(c.simulation->contact->now.n_pairs, begun);
+    assert_int_equal(brc_simulation_contact_report(c.simulation).n_pairs, begun);
     assert_done(&c, brc_simulation_advance(c.simulation, 1)); /* at rest: every H is zero */
     assert_done(&c, brc_contact_search(c.simulation));
-    assert_int_equal(c.simulation->contact->now.n_pairs, begun);
+    assert_int_equal(brc_simulation_contact_report(c.simulation).n_pairs, begun);
     close_case(&c);
 }
 
@@ -34,14 +34,14 @@ static void a_state_that_is_given_decides_who_is_near(void **state)
                                  .stages = "  - name: rest\n    solver: {dynamic: {steps: 10}}\n",
                                  .n_threads = 1});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-    const int32_t begun = c.simulation->contact->now.n_pairs;
+    const int32_t begun = brc_simulation_contact_report(c.simulation).n_pairs;
     double *u = calloc((size_t)(3 * c.domain->n_elements), sizeof *u),
            *home = calloc((size_t)(3 * c.domain->n_elements), sizeof *u);
     for (int64_t e = 0; e < c.domain->n_elements; ++e)
         u[3 * e] = 3 * c.domain->position[3 * e];
     assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL));
     assert_done(&c, brc_simulation_set_state(c.simulation, home, NULL));
-    assert_int_equal(c.simulation->contact->now.n_pairs, begun);
+    assert_int_equal(brc_simulation_contact_report(c.simulation).n_pairs, begun);
     free(u), free(home);
     close_case(&c);
 }

@@ -99,7 +99,7 @@ static void momenta(bench_case *c, double out[6])
     double *u = calloc((size_t)(9 * n), sizeof *u), *v = u + 3 * n, *l = v + 3 * n;
     assert_done(c, brc_simulation_displacement(c->simulation, u));
     assert_done(c, brc_simulation_velocity(c->simulation, v));
-    assert_done(c, brc_state_from_rows(c->simulation, c->simulation->contact->momentum, l, 3));
+    assert_done(c, brc_contact_momenta(c->simulation, l));
     for (int k = 0; k < 6; ++k)
         out[k] = 0;
     for (int64_t e = 0; e < n; ++e)
@@ -132,10 +132,12 @@ static void fragments_that_meet_keep_momentum_and_energy(void **state)
     assert_done(&c, brc_simulation_broken(c.simulation, &broken));
     print_message("%lld broken, %g rigid, friction %.3g, impact %.3g, contact %.3g, fracture %.3g of %.3g J; closure "
                   "%.3g; momenta %.2g %.2g %.2g %.2g %.2g %.2g\n",
-                  (long long)broken, c.simulation->contact->n_rigid, ledger.friction, ledger.impact, ledger.contact,
-                  ledger.fracture, ledger.initial, ledger.closure, after[0] - before[0], after[1] - before[1],
-                  after[2] - before[2], after[3] - before[3], after[4] - before[4], after[5] - before[5]);
-    assert_true(broken > 100 && c.simulation->contact->n_rigid > 5 && ledger.friction > 0 && ledger.impact > 0);
+                  (long long)broken, brc_simulation_contact_report(c.simulation).n_rigid, ledger.friction,
+                  ledger.impact, ledger.contact, ledger.fracture, ledger.initial, ledger.closure, after[0] - before[0],
+                  after[1] - before[1], after[2] - before[2], after[3] - before[3], after[4] - before[4],
+                  after[5] - before[5]);
+    assert_true(broken > 100 && brc_simulation_contact_report(c.simulation).n_rigid > 5 && ledger.friction > 0 &&
+                ledger.impact > 0);
     for (int k = 0; k < 6; ++k)
         assert_true(fabs(after[k] - before[k]) < 1e-12 * 1e-3);
     assert_true(fabs(ledger.closure) < 0.02);
@@ -174,9 +176,9 @@ static void surfaces_that_a_break_moves_rub_nothing(void **state)
         const double lacks = l.total - l.initial + l.friction + l.impact + l.fracture + l.numerical;
         print_message("%lld broken, %g rigid, friction %.3g, impact %.3g, fracture %.3g of %.3g J: %.2g of the peak "
                       "elastic energy\n",
-                      (long long)count_broken(&c), c.simulation->contact->n_rigid, l.friction, l.impact, l.fracture,
-                      l.initial, lacks / l.peak_elastic);
-        assert_true(count_broken(&c) > 300 && c.simulation->contact->n_rigid > 20);
+                      (long long)count_broken(&c), brc_simulation_contact_report(c.simulation).n_rigid, l.friction,
+                      l.impact, l.fracture, l.initial, lacks / l.peak_elastic);
+        assert_true(count_broken(&c) > 300 && brc_simulation_contact_report(c.simulation).n_rigid > 20);
         assert_true(fabs(lacks) < bound[half] * l.peak_elastic);
         close_case(&c);
     }
@@ -202,7 +204,7 @@ static void cells_that_came_off_turn_unless_switched_off(void **state)
         run_steps(&c, 400);
         n = c.domain->n_elements;
         place[off] = calloc((size_t)(3 * n), sizeof **place);
-        assert_true(c.simulation->contact->n_rigid > 5);
+        assert_true(brc_simulation_contact_report(c.simulation).n_rigid > 5);
         assert_done(&c, brc_simulation_displacement(c.simulation, place[off]));
         assert_done(&c, brc_contact_spin_energy(c.simulation, &energy[off]));
         for (int64_t k = 0; k < 3 * n; ++k)
@@ -236,7 +238,7 @@ static void forces_are_the_gradient_of_the_energy_with_touching_fragments(void *
     assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL));
     assert_done(&c, brc_simulation_force(c.simulation, f));
     const brc_ledger at = ledger_now(&c);
-    assert_true(at.contact > 0 && c.simulation->contact->n_rigid > 0);
+    assert_true(at.contact > 0 && brc_simulation_contact_report(c.simulation).n_rigid > 0);
     for (int64_t k = 0; k < n; ++k)
         along += f[k] * random_at((uint64_t)(n + k));
     for (int side = 0; side < 2; ++side) {
@@ -276,10 +278,10 @@ static void dust_with_loaded_faces_does_not_turn(void **state)
         for (int k = 0; k < 1500; ++k) {
             run_steps(&c, 1);
             assert_true(!brc_contact_bonded(c.simulation) ==
-                        !(2 * c.simulation->contact->n_rigid > (double)c.domain->n_elements));
+                        !(2 * brc_simulation_contact_report(c.simulation).n_rigid > (double)c.domain->n_elements));
         }
         double *u = calloc((size_t)(3 * n), sizeof *u), *f = u + n, *moved = f + n, along = 0, energy[2];
-        const double closure = ledger_now(&c).closure, rigid = c.simulation->contact->n_rigid;
+        const double closure = ledger_now(&c).closure, rigid = brc_simulation_contact_report(c.simulation).n_rigid;
         assert_done(&c, brc_simulation_displacement(c.simulation, u));
         assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL));
         assert_done(&c, brc_simulation_force(c.simulation, f));

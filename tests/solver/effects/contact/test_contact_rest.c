@@ -27,13 +27,9 @@ static case_options options_of(int kind)
 /* What pairs remember [n][BRC_CONTACT_HISTORY]. */
 static double *histories(bench_case *c, int64_t *n)
 {
-    const brc_contact_list *l = &c->simulation->contact->now;
-    double *history = calloc((size_t)(BRC_CONTACT_HISTORY * l->n_pairs) + 1, sizeof *history);
-    *n = l->n_pairs;
-    if (*n > 0)
-        assert_done(c, brc_download(c->simulation, l->history,
-                                    brc_precision_state_bytes(brc_device_get_precision(c->simulation->device)), history,
-                                    BRC_CONTACT_HISTORY * *n));
+    *n = brc_simulation_contact_report(c->simulation).n_pairs;
+    double *history = calloc((size_t)(BRC_CONTACT_HISTORY * *n) + 1, sizeof *history);
+    assert_done(c, brc_contact_read_pairs(c->simulation, NULL, history));
     return history;
 }
 static bool rests(const double *one)
@@ -48,9 +44,7 @@ static void wake_all(bench_case *c)
     double *history = histories(c, &n);
     for (int64_t p = 0; p < n; ++p)
         if (rests(history + BRC_CONTACT_HISTORY * p)) history[BRC_CONTACT_HISTORY * p + 14] = 1;
-    if (n > 0)
-        assert_done(
-            c, brc_upload_state(c->simulation, c->simulation->contact->now.history, history, BRC_CONTACT_HISTORY * n));
+    assert_done(c, brc_contact_write_pairs(c->simulation, history));
     free(history);
 }
 
@@ -74,11 +68,11 @@ static double *motion(case_options o, bool wake, int64_t steps, int64_t *n, int6
     const int64_t width = 3 * c.domain->n_elements;
     double *out = calloc((size_t)(3 * width + 2), sizeof *out);
     const brc_ledger ledger = ledger_now(&c);
-    assert_true(c.simulation->contact->n_rigid > 3);
+    assert_true(brc_simulation_contact_report(c.simulation).n_rigid > 3);
     assert_true(ledger.friction > 0 && ledger.impact > 0); /* pieces met */
     assert_done(&c, brc_simulation_displacement(c.simulation, out));
     assert_done(&c, brc_simulation_velocity(c.simulation, out + width));
-    assert_done(&c, brc_state_from_rows(c.simulation, c.simulation->contact->momentum, out + 2 * width, 3));
+    assert_done(&c, brc_contact_momenta(c.simulation, out + 2 * width));
     out[3 * width] = ledger.friction, out[3 * width + 1] = ledger.impact;
     *n = 3 * width + 2;
     close_case(&c);
@@ -126,7 +120,7 @@ static void most_pairs_of_dispersed_dust_rest(void **state)
     }
     print_message("%lld cells, all loose: %lld pairs listed, %lld at rest, %lld touch\n",
                   (long long)c.domain->n_elements, (long long)n, (long long)resting, (long long)touching);
-    assert_true((int64_t)c.simulation->contact->n_rigid == c.domain->n_elements);
+    assert_true((int64_t)brc_simulation_contact_report(c.simulation).n_rigid == c.domain->n_elements);
     assert_true(n > 50 && 2 * resting > n);
     free(history);
     close_case(&c);
@@ -144,7 +138,7 @@ static double *softened(bool whole, int64_t *n, int64_t *broken, double *spent)
                                  .n_threads = 1,
                                  .materials = CELLS_STRENGTH("4e-4 Pa, fracture_energy: 2e-7 J/m^2")});
     begin_first(&c);
-    c.simulation->contact->always_whole = whole;
+    brc_contact_always_whole(c.simulation, whole);
     run_steps(&c, 400);
     *n = 6 * c.domain->n_elements;
     *broken = count_broken(&c);
@@ -178,19 +172,15 @@ static void pairs_take_no_more_than_is_said(void **state)
 {
     (void)state;
     bench_case c;
-    int64_t most = 0, bytes = 0;
+    int64_t most = 0;
     open_case(&c, options_of(0));
     begin_first(&c);
-    const brc_contact_state *contact = c.simulation->contact;
     for (int k = 0; k < 25; ++k) {
         run_steps(&c, 16);
-        most = contact->now.n_pairs > most ? contact->now.n_pairs : most;
+        const int64_t now = brc_simulation_contact_report(c.simulation).n_pairs;
+        most = now > most ? now : most;
     }
-    const brc_buffer *all[] = {contact->now.ends, contact->now.history, contact->before.ends, contact->before.history,
-                               contact->touch,    contact->result,      contact->packed,      contact->packed_at,
-                               contact->flag,     contact->flag_start,  contact->todo};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
-        bytes += all[k] ? brc_buffer_bytes(all[k]) : 0;
+    const int64_t bytes = brc_simulation_contact_report(c.simulation).pair_bytes;
     const int64_t said = brc_simulation_pair_bytes(c.simulation) * most;
     print_message("%lld pairs at most: %lld bytes of %lld\n", (long long)most, (long long)bytes, (long long)said);
     assert_true(bytes > 0 && bytes <= said && 3 * bytes > said);

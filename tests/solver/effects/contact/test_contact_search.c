@@ -24,7 +24,7 @@ static double *crushed(const char *model, const char *contact, int64_t *n, int64
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_simulation_advance(c.simulation, 400));
     *n = 6 * c.domain->n_elements;
-    *listed = c.simulation->contact->now.n_pairs;
+    *listed = brc_simulation_contact_report(c.simulation).n_pairs;
     double *out = calloc((size_t)*n, sizeof *out);
     assert_done(&c, brc_simulation_displacement(c.simulation, out));
     assert_done(&c, brc_simulation_velocity(c.simulation, out + *n / 2));
@@ -78,7 +78,7 @@ static void open_crushed(bench_case *c, int kind, bool whole)
                                     .sets = CONTACT_KEYS,
                                     .n_threads = 1});
     assert_done(c, brc_simulation_begin_stage(c->simulation, 0));
-    c->simulation->contact->always_whole = whole;
+    brc_contact_always_whole(c->simulation, whole);
 }
 
 /* To the last bit: who is exposed, who is listed, when, and what is evaluated again may not matter. */
@@ -93,7 +93,7 @@ static void after_breaks_only_pairs_around_them_are_looked_for_and_the_motion_is
             open_crushed(&c, kind, whole);
             assert_done(&c, brc_simulation_advance(c.simulation, 400));
             n = 6 * c.domain->n_elements;
-            searches[whole] = c.simulation->contact->searches;
+            searches[whole] = brc_simulation_contact_report(c.simulation).searches;
             broken[whole] = count_broken(&c);
             out[whole] = calloc((size_t)n, sizeof *out[whole]);
             assert_done(&c, brc_simulation_displacement(c.simulation, out[whole]));
@@ -123,13 +123,11 @@ static void a_list_that_grew_is_that_of_a_search_from_the_same_places(void **sta
         for (int part = 0; part < 4; ++part) {
             assert_done(&c, brc_simulation_advance(c.simulation, 97));
             for (int k = 0; k < 2; ++k) {
-                const brc_contact_list *l = &c.simulation->contact->now;
-                n[k] = l->n_pairs;
+                n[k] = brc_simulation_contact_report(c.simulation).n_pairs;
                 assert_true(n[k] > 0);
                 ends[k] = calloc((size_t)(2 * n[k]), sizeof *ends[k]);
                 history[k] = calloc((size_t)(BRC_CONTACT_HISTORY * n[k]), sizeof *history[k]);
-                assert_done(&c, brc_buffer_read(l->ends, 0, ends[k], 8 * n[k]));
-                assert_done(&c, brc_download(c.simulation, l->history, 8, history[k], BRC_CONTACT_HISTORY * n[k]));
+                assert_done(&c, brc_contact_read_pairs(c.simulation, ends[k], history[k]));
                 if (k == 0) assert_done(&c, brc_contact_list_again(c.simulation));
             }
             assert_true(n[0] == n[1]);
@@ -159,10 +157,10 @@ static int64_t searches(const char *materials, const char *keys, const char *ini
                                  .n_threads = 1});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_simulation_advance(c.simulation, 40));
-    if (materials) assert_true(c.simulation->contact->n_rigid == 27);
-    const int64_t before = c.simulation->contact->searches;
+    if (materials) assert_true(brc_simulation_contact_report(c.simulation).n_rigid == 27);
+    const int64_t before = brc_simulation_contact_report(c.simulation).searches;
     assert_done(&c, brc_simulation_advance(c.simulation, 400));
-    const int64_t after = c.simulation->contact->searches;
+    const int64_t after = brc_simulation_contact_report(c.simulation).searches;
     close_case(&c);
     return after - before;
 }
@@ -207,7 +205,7 @@ static void a_stage_of_nothing_but_dust_takes_its_step_from_contact(void **state
     brc_time_step step;
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
     assert_done(&c, brc_simulation_advance(c.simulation, 40));
-    assert_true(c.simulation->contact->n_rigid == 27);
+    assert_true(brc_simulation_contact_report(c.simulation).n_rigid == 27);
     assert_done(&c, brc_simulation_find_time_step(c.simulation, 1, &step));
     print_message("%s: %.4g s\n", step.governed_by, step.critical);
     assert_string_equal(step.governed_by, "auto: contact");
@@ -226,8 +224,8 @@ static void nothing_is_listed_in_a_whole_body_at_rest(void **state)
                                  .sets = "interactions: {contact: {}}\n",
                                  .n_threads = 1});
     assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
-    assert_int_equal(c.simulation->contact->now.n_pairs, 0);
-    assert_true(c.simulation->contact->now.n_listed > 100);
+    assert_int_equal(brc_simulation_contact_report(c.simulation).n_pairs, 0);
+    assert_true(brc_simulation_contact_report(c.simulation).n_listed > 100);
     close_case(&c);
 }
 

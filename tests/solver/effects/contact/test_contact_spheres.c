@@ -1,6 +1,6 @@
 /* Contact of spheres (model cbm) against exact results: Hertz's collision, restitution, momentum, sliding, fragments
  * that meet again. Spheres of radius 0.5 m, density 1 kg/m^3, E 1 Pa and nu 0.2: mass pi/6 kg, E* = 1/1.92 Pa. */
-#include "../../../../host/solver/effects/contact/contact_internal.h"
+#include "../../../../host/solver/effects/contact/contact.h"
 #include "../../models/cbm/beams_case.h"
 #include <math.h>
 #include <stdio.h>

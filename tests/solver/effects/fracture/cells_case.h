@@ -2,7 +2,7 @@
 #ifndef BRC_TESTS_SOLVER_CELLS_CASE_H
 #define BRC_TESTS_SOLVER_CELLS_CASE_H
 
-#include "../../../../host/solver/effects/fracture/fracture_internal.h"
+#include "../../../../host/solver/effects/fracture/breaking.h"
 #include "../../support.h"
 
 /* Key `fracture`, where open_case takes keys of the scene. */

@@ -2,7 +2,7 @@
 #ifndef BRC_TESTS_SOLVER_FRACTURE_CASE_H
 #define BRC_TESTS_SOLVER_FRACTURE_CASE_H
 
-#include "../../../../host/solver/effects/fracture/fracture_internal.h"
+#include "../../../../host/solver/effects/fracture/breaking.h"
 #include "../../support.h"
 
 /* Zero means the default. A cube of 1 m, glass of E 1 Pa, density 1 kg/m^3, beams of cn 8 with r_m 0.4. */

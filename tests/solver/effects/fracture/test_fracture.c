@@ -47,16 +47,7 @@ static double *judged_stress(bench_case *c, int level, const uint8_t *whole)
     const brc_domain *d = c->domain;
     double *stress = calloc((size_t)(6 * d->n_elements), sizeof *stress),
            *record = calloc((size_t)(8 * d->n_elements), sizeof *record);
-    assert_done(c, brc_coeff_from_rows(c->simulation, c->simulation->fracture->stress, stress, 6));
-    const brc_layout *layout = c->simulation->layout;
-    double *rows = calloc((size_t)(8 * layout->n_rows), sizeof *rows);
-    assert_done(c, brc_download(c->simulation, c->simulation->fracture->record, sizeof *rows, rows,
-                                8 * (int64_t)layout->n_rows));
-    for (int64_t k = 0; k < 8 * d->n_elements; ++k) {
-        const int64_t r = layout->row_of_element[k / 8];
-        record[k] = rows[(8 * (r / layout->slice) + k % 8) * layout->slice + r % layout->slice];
-    }
-    free(rows);
+    assert_done(c, brc_fracture_judged(c->simulation, stress, record));
     for (int64_t e = 0; level < 2 && e < d->n_elements; ++e) {
         double sum[7];
         memcpy(sum, record + 8 * e, sizeof sum);
@@ -422,7 +413,7 @@ static void a_strength_by_discs_raises_the_limit_in_tension_alone(void **state)
         assert_done(&c, brc_strength_law_disc(c.context, brc_beam_law_coordination(brc_beam_law_for(0.125), &bonds),
                                               0.4, &ratio));
         for (int k = 0; k < 3; ++k)
-            limit[t][k] = c.simulation->fracture->limit[k];
+            limit[t][k] = brc_fracture_limits(c.simulation)[k];
         close_case(&c);
     }
     assert_true(ratio < 0.99 && sqrt(ratio) > 1 / 1.037);

@@ -1,7 +1,7 @@
 /* Free strikers under a prescribed force: alone, in gravity, on elastic columns; what is booked, and what a checkpoint
  * has of it. */
 #include "../../core/state_cases.h"
-#include "../../../../host/solver/effects/strikers/strikers_internal.h"
+#include "../../../../host/solver/effects/strikers/striker_contact.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Rigid strikers: driven and free motion, with forces put in by hand in place of contact. */
 #include "../../support.h"
 #include "../../../../host/base/memory.h"
-#include "../../../../host/solver/effects/strikers/strikers_internal.h"
+#include "../../../../host/solver/effects/strikers/striker_contact.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,8 +34,7 @@ static brc_striker_now now_of(bench_case *c, int32_t striker)
 /* What contact would write. */
 static void put_load(bench_case *c, const double *load)
 {
-    const brc_strikers *t = c->simulation->strikers;
-    assert_done(c, brc_upload_state(c->simulation, t->load, load, 6 * (int64_t)t->n));
+    assert_done(c, brc_strikers_set_load(c->simulation, load));
 }
 
 static double length(const double a[3])
@@ -56,11 +55,9 @@ static void a_tumbling_brick_keeps_momentum_and_energy(void **state)
     open_strikers(&c, TUMBLING, STAGE("10000"), BRC_DOUBLE);
     const double before = now_of(&c, 0).kinetic, m = 6000, i[3] = {m * 13 / 12, m * 10 / 12, m * 5 / 12};
     assert_true(fabs(before - 0.5 * (m + i[0] * 9 + i[1] + i[2] * 4)) < 1e-14 * before);
-    double momentum[3];
     assert_done(&c, brc_simulation_advance(c.simulation, 10000));
-    assert_done(&c, brc_download(c.simulation, c.simulation->strikers->momentum, 8, momentum, 3));
-    assert_true(momentum[0] == 3 * i[0] && momentum[1] == i[1] && momentum[2] == 2 * i[2]);
     const brc_striker_now now = now_of(&c, 0);
+    assert_true(now.momentum[0] == 3 * i[0] && now.momentum[1] == i[1] && now.momentum[2] == 2 * i[2]);
     assert_true(fabs(now.kinetic / before - 1) < 2e-11);
     assert_true(fabs(now.displacement[0] - 10) < 1e4 * 1e-15 * 10 && now.displacement[1] == 0); /* 10 s at 1 m/s */
     assert_true(fabs(now.spin[0] - 3) > 0.1);                                                   /* it does tumble */
@@ -272,14 +269,17 @@ static void pieces_of_all_strikers_stand_in_one_list(void **state)
                  "{free: {}}}\n"
                  "  ring: {shape: {torus: {radius: 2 m, tube: 0.5 m, centre: [50 m, 0, 0]}}, material: steel}\n"),
         STAGE("1"), BRC_DOUBLE);
-    const brc_strikers *t = c.simulation->strikers;
-    const brc_convex *p = &t->convex;
-    assert_true(p->n > 20 && t->piece_striker[2] == 2 && t->piece_striker[3] == 3 && t->piece_striker[p->n - 1] == 3);
-    assert_true(t->piece_kind[0] == BRC_PIECE_PLANE && t->piece_kind[1] == BRC_PIECE_CONVEX &&
-                t->piece_kind[2] == BRC_PIECE_SPHERE && t->piece_kind[3] == BRC_PIECE_CONVEX);
+    const brc_convex *p = c.simulation->wants.pieces;
+    brc_striker_piece piece[5];
+    for (int k = 0; k < 4; ++k)
+        piece[k] = brc_striker_piece_of(c.simulation, k);
+    piece[4] = brc_striker_piece_of(c.simulation, p->n - 1);
+    assert_true(p->n > 20 && piece[2].striker == 2 && piece[3].striker == 3 && piece[4].striker == 3);
+    assert_true(piece[0].kind == BRC_PIECE_PLANE && piece[1].kind == BRC_PIECE_CONVEX &&
+                piece[2].kind == BRC_PIECE_SPHERE && piece[3].kind == BRC_PIECE_CONVEX);
     assert_true(p->face_start[1] == 1 && p->corner_start[1] == 0 && fabs(p->plane[1] - 0.6) < 1e-15 &&
                 fabs(p->plane[2] - 0.8) < 1e-15 && p->plane[3] == 0);
-    assert_true(t->piece_radius[2] == 1 && t->piece_radius[1] == 0 && p->radius[2] > 1 && p->radius[2] < 1.2);
+    assert_true(piece[2].radius == 1 && piece[1].radius == 0 && p->radius[2] > 1 && p->radius[2] < 1.2);
     double high[3] = {0}; /* the brick lies 2 x 1 x 3 after its quarter turn */
     for (int32_t k = p->corner_start[1]; k < p->corner_start[2]; ++k)
         for (int d = 0; d < 3; ++d)
@@ -295,7 +295,7 @@ static void pieces_of_all_strikers_stand_in_one_list(void **state)
                                                    .loop = p->loop,
                                                    .radius = p->radius + 2},
                                      1e-12));
-    const brc_striker_body *body = t->body;
+    const brc_striker_body *body = brc_simulation_striker_body(c.simulation, 0);
     assert_true(body[0].surface.n_faces == 1 && body[1].surface.n_faces == 6 && body[3].surface.n_faces > 100 &&
                 body[0].volume == 0);
     for (int k = 0; k < 4; ++k) { /* the square lies in the plane, around the cube */
