@@ -105,6 +105,18 @@ int64_t brc_mesh_n_triangles(const brc_mesh *mesh)
     return mesh->n_triangles;
 }
 
+const double (*brc_mesh_vertices(const brc_mesh *mesh, int32_t *n))[3]
+{
+    *n = mesh->n_vertices;
+    return (const double(*)[3])mesh->vertex;
+}
+
+bool brc_mesh_triangle(const brc_mesh *mesh, int64_t t, const int32_t **corners)
+{
+    *corners = mesh->corner[t];
+    return !(mesh->flags[t] & BRC_MESH_SLIVER);
+}
+
 void brc_mesh_bounds(const brc_mesh *mesh, double bounds[2][3])
 {
     memcpy(bounds, mesh->bounds, sizeof mesh->bounds);

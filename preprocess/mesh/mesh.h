@@ -42,6 +42,10 @@ brc_status brc_mesh_read_stl(brc_context *context, const char *path, double scal
 void brc_mesh_free(brc_mesh **mesh);
 
 int64_t brc_mesh_n_triangles(const brc_mesh *mesh);
+/* Its vertices [*n][3], and whether triangle t is more than a sliver: then its corners, counter-clockwise from
+ * outside. */
+const double (*brc_mesh_vertices(const brc_mesh *mesh, int32_t *n))[3];
+bool brc_mesh_triangle(const brc_mesh *mesh, int64_t t, const int32_t **corners);
 void brc_mesh_bounds(const brc_mesh *mesh, double bounds[2][3]);
 /* Exact volume [m^3] and area [m^2] of the mesh. */
 double brc_mesh_volume(const brc_mesh *mesh);

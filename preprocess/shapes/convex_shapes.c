@@ -3,7 +3,8 @@
 
 #include "../../host/base/memory.h"
 #include "../domain/icosphere.h"
-#include "../mesh/mesh_internal.h"
+#include "../mesh/mesh.h"
+#include "../mesh/vector3.h"
 #include "solid.h"
 
 #include <math.h>
@@ -230,10 +231,14 @@ static brc_status sphere(brc_context *context, const brc_shape *shape, int32_t f
 
 static brc_status convex_mesh(brc_context *context, const brc_mesh *mesh, brc_convex *out, brc_rigid *rigid)
 {
-    BRC_TRY(begin(context, mesh->n_vertices, mesh->n_triangles, 3 * (int64_t)mesh->n_triangles, out));
-    memcpy(out->corner, mesh->vertex, (size_t)mesh->n_vertices * sizeof *mesh->vertex);
-    for (int32_t t = 0; t < mesh->n_triangles; ++t)
-        if (!(mesh->flags[t] & BRC_MESH_SLIVER)) add_face(out, mesh->corner[t], 3);
+    const int64_t n = brc_mesh_n_triangles(mesh);
+    const int32_t *corners;
+    int32_t n_vertices;
+    const double(*vertex)[3] = brc_mesh_vertices(mesh, &n_vertices);
+    BRC_TRY(begin(context, n_vertices, (int32_t)n, 3 * n, out));
+    memcpy(out->corner, vertex, (size_t)n_vertices * sizeof *vertex);
+    for (int64_t t = 0; t < n; ++t)
+        if (brc_mesh_triangle(mesh, t, &corners)) add_face(out, corners, 3);
     finish(out);
     brc_convex_mass(out, 0, rigid);
     return BRC_OK;

@@ -1,5 +1,5 @@
 /* Constant drag: every element that moves loses the same speed in the same time, whatever its mass, until it rests. */
-#include "../core/simulation_internal.h"
+#include "../core/solver.h"
 #include "../core/state_store.h"
 
 typedef struct drag {
@@ -49,7 +49,7 @@ static bool due(const brc_simulation *s)
 static brc_status slow(brc_simulation *s, const brc_occasion *now)
 {
     const double slower = brc_current_stage(s)->constant_drag * now->dt;
-    BRC_TRY(brc_constrain(s, s->velocity, NULL));
+    BRC_TRY(brc_constrain(s, brc_velocity_of(s), NULL));
     return BRC_RUN(own_of(s)->slow, s->layout->n_rows, {"slower", BRC_STATE(slower)});
 }
 

@@ -1,5 +1,5 @@
 /* Model spring: central springs between cells, of stiffness E S / L. */
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 #include <math.h>
 
 typedef struct springs {
@@ -77,7 +77,7 @@ static brc_status energies(brc_simulation *s, double *elastic, double *stabilisa
     const springs *own = s->of_model;
     *stabilisation = 0;
     BRC_TRY(brc_pass_run(own->energy, s->n_groups));
-    return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+    return brc_vector_sum(s, brc_elastic_energy_of(s), s->layout->n_rows, elastic);
 }
 
 static int step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
@@ -101,7 +101,7 @@ static brc_status face_displacement(brc_simulation *s, int64_t n, const int32_t 
 {
     double *u = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * s->domain->n_elements, "displacements"));
-    const brc_status status = brc_state_from_rows(s, s->displacement, u, 3);
+    const brc_status status = brc_state_from_rows(s, brc_displacement_of(s), u, 3);
     for (int64_t i = 0; status == BRC_OK && i < n; ++i)
         for (int c = 0; c < 3; ++c)
             out[3 * i + c] = u[3 * (int64_t)s->domain->free_element[faces[i]] + c];

@@ -1,5 +1,6 @@
 """Modules of host/solver: core/, run/ and utilities/ know models and effects by their descriptors alone and name no kernel of one; models and
-effects include nothing of run/."""
+effects include nothing of run/. What a folder keeps is in its X_internal.h or in a source: others include no such header, tests of the solver
+neither, and the struct of a simulation names each as a pointer to a struct that they alone define."""
 import os
 import re
 import repository
@@ -26,6 +27,31 @@ def above(files):
             for written, target in targets(path, text) if target.startswith(SOLVER + "run/")]
 
 
+def internal(files):
+    """A header X_internal.h is included from its own folder and the folders in it."""
+    return [f"{path}: includes {written}, which is for the files of {os.path.dirname(target)}/" for path, text in files.items()
+            for written, target in targets(path, text) if target.endswith("_internal.h") and not path.startswith(os.path.dirname(target) + "/")]
+
+
+def shared(files):
+    """What the struct of a simulation points to is defined where only its own folder sees it; nobody but core/ and run/ sets what all read."""
+    body = re.search(r"struct brc_simulation \{(.*?)\n\};", repository.code_of(files.get(SOLVER + "core/solver.h", "")), re.S)
+    if not body:
+        return ["core/solver.h: no struct of a simulation"]
+    head, _, own = body.group(1).partition("struct ")
+    findings = []
+    for name in re.findall(r"(\w+) \*", own):
+        for path, text in files.items():
+            if path.endswith(".h") and not path.endswith("_internal.h") and re.search(r"struct %s\s*\{" % name, text):
+                findings.append(f"{path}: defines struct {name}; it is for {os.path.dirname(path)}/ alone: X_internal.h")
+    facts = "|".join(re.findall(r"(\w+);", head))
+    for path, text in files.items():
+        if path.startswith(SOLVER) and not path.startswith((SOLVER + "core/", SOLVER + "run/")):
+            for fact in re.findall(r"\bs->((?:%s)(?:\.\w+)?)\s*[-+*/|]?=[^=]" % facts, repository.code_of(text)):
+                findings.append(f"{path}: sets s->{fact}, which all read")
+    return findings
+
+
 def kernels(files):
     """Names of kernels of models and effects, in quotes, stand in the module alone."""
     names = {}
@@ -38,10 +64,16 @@ def kernels(files):
             for name in re.findall(r'"(\w+)"', text) if name in names]
 
 
+solver = repository.read(r"^(host|preprocess|tests/solver)/.*\.(c|h|cc)$")
+simulation = {SOLVER + "core/solver.h": "struct brc_simulation {\n    brc_wants wants;\n    struct brc_own *own;\n};\n"}
 sources = repository.read(r"^host/solver/.*\.(c|h)$|^kernels/.*\.cl$")
 repository.finish([
+    repository.report("internal", internal, solver, {"a model": {SOLVER + "statics/a.c": '#include "../models/cbm/cbm_internal.h"\n'},
+                                                     "a test": {"tests/solver/a.c": '#include "../../host/solver/run/run_internal.h"\n'}}),
+    repository.report("shared", shared, solver, {"a struct": dict(simulation, **{SOLVER + "effects/own.h": "struct brc_own {\n    int n;\n};\n"}),
+                                                 "a fact": dict(simulation, **{SOLVER + "effects/own.c": "s->wants.n = 1;\n"})}),
     repository.report("below", below, sources, {"an effect": {SOLVER + "run/a.c": '#include "../effects/guard.h"\n'},
-                                                "a model": {SOLVER + "core/a.c": '#include "../models/cbm/cbm.h"\n'}}),
+                                                "a model": {SOLVER + "core/a.c": '#include "../models/cbm/cbm_internal.h"\n'}}),
     repository.report("above", above, sources, {"run": {SOLVER + "effects/contact/a.c": '#include "../../run/look.h"\n'}}),
     repository.report("kernels", kernels, sources, {"one": {"kernels/effects/gravity.cl": "KERNEL void gravity(int n)\n{\n}\n",
                                                             SOLVER + "run/a.c": 'BRC_PASS(p, "gravity", NULL);\n'}})])

@@ -4,7 +4,7 @@
 #include "../../host/base/memory.h"
 #include "../../host/commands/setup.h"
 #include "../../host/scene/scene_reader.h"
-#include "../../host/solver/core/simulation_internal.h"
+#include "../../host/solver/core/solver.h"
 #include <glob.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Host doubles by element id <-> device rows. */
 #include "../../device/shares.h"
-#include "simulation_internal.h"
+#include "core_internal.h"
 
 static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count, int bytes_each)
 {

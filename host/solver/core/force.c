@@ -11,7 +11,7 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     brc_force_request all = *r;
     if (r->rings && !r->rings->whole_force) { /* from here on forces are those of the whole body */
         BRC_TRY(s->model->breaking->replace_around(s, r->rings));
-        all.force = s->force, all.torque = s->torque;
+        all.force = brc_force_of(s), all.torque = brc_torque_of(s);
         r = &all;
     }
     return brc_hook_run(s, BRC_HOOK_BOOK, &(brc_occasion){.request = r});
@@ -19,14 +19,13 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
 
 brc_force_request brc_force_request_of_state(brc_simulation *s, brc_booking book)
 {
-    const bool is_static = s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_STATIC;
-    return (brc_force_request){.displacement = s->displacement,
-                               .force = s->force,
-                               .orientation = s->orientation,
-                               .torque = s->torque,
+    return (brc_force_request){.displacement = brc_displacement_of(s),
+                               .force = brc_force_of(s),
+                               .orientation = brc_orientation_of(s),
+                               .torque = brc_torque_of(s),
                                .finite = !s->scene->model.small_rotations,
                                .book = book,
-                               .t = is_static ? s->load_factor : s->time};
+                               .t = brc_loads_time(s)};
 }
 
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book)

@@ -1,6 +1,6 @@
 /* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares,
  * masses. */
-#include "simulation_internal.h"
+#include "core_internal.h"
 #include "sym3.h"
 #include <math.h>
 #include <string.h>
@@ -74,9 +74,9 @@ static brc_status upload_connectivity(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
-    BRC_TRY(brc_upload_int(s->row_start, layout->slot_start, layout->n_slices + 1));
-    BRC_TRY(brc_upload_int(s->boundary, layout->boundary, layout->n_slices));
-    BRC_TRY(brc_upload_int(s->asked_ahead, layout->ahead, layout->n_rows));
+    BRC_TRY(brc_upload_int(s->core->row_start, layout->slot_start, layout->n_slices + 1));
+    BRC_TRY(brc_upload_int(s->core->boundary, layout->boundary, layout->n_slices));
+    BRC_TRY(brc_upload_int(s->core->asked_ahead, layout->ahead, layout->n_rows));
     int32_t *rows = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice, "neighbours"));
     for (int32_t block = 0; block < layout->n_slices; ++block)
@@ -86,7 +86,7 @@ static brc_status upload_connectivity(brc_simulation *s)
                 rows[(int64_t)slot * slice + l] =
                     h < 0 ? block * slice + l : layout->row_of_element[s->domain->neighbour[h]];
             }
-    const brc_status status = brc_upload_int(s->neighbour, rows, layout->n_slots * slice);
+    const brc_status status = brc_upload_int(s->core->neighbour, rows, layout->n_slots * slice);
     brc_memory_free(rows);
     return status;
 }
@@ -136,7 +136,7 @@ brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refin
             "%lld of %lld elements have neighbours that do not span space; their gradient is taken over the directions "
             "they do span",
             (long long)flat, (long long)s->domain->n_elements);
-    const brc_status status = brc_upload_coeff(s, s->inv_shape, blocks, (int64_t)layout->n_rows * 6);
+    const brc_status status = brc_upload_coeff(s, s->core->inv_shape, blocks, (int64_t)layout->n_rows * 6);
     brc_memory_free(blocks);
     return status;
 }
@@ -151,19 +151,19 @@ static brc_status upload_masses(brc_simulation *s)
         BRC_ALLOCATE(s->context, &values, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, "masses"));
     for (int64_t e = 0; e < d->n_elements; ++e)
         values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->mass, values, 1, 1));
-    if (s->volume) BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->volume, d->volume, 1, 1));
-    if (s->inertia) {
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->core->mass, values, 1, 1));
+    if (s->core->volume) BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->core->volume, d->volume, 1, 1));
+    if (s->core->inertia) {
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
         for (int64_t e = 0; e < d->n_elements; ++e)
             values[e] = s->elastic[s->material_of_element[e]].density *
                         (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
-        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->inertia, values, 1, 1));
+        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->core->inertia, values, 1, 1));
     }
-    if (s->inv_volume) {
+    if (s->core->inv_volume) {
         for (int32_t r = 0; r < layout->n_rows; ++r)
             values[r] = layout->element_of_row[r] < 0 ? 1 : 1 / d->volume[layout->element_of_row[r]];
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->inv_volume, values, layout->n_rows));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->inv_volume, values, layout->n_rows));
     }
 cleanup:
     brc_memory_free(values);
@@ -193,12 +193,12 @@ brc_status brc_geometry_materials(brc_simulation *s)
         lame[3 * (int64_t)r + 1] = m->mu;
         lame[3 * (int64_t)r + 2] = m->young;
     }
-    if (s->lame_of) {
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->lame_of, lame, (int64_t)layout->n_rows * 3));
+    if (s->core->lame_of) {
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->lame_of, lame, (int64_t)layout->n_rows * 3));
     } else {
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->material, blocks, (int64_t)layout->n_rows * 4));
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->modulus, modulus, layout->n_rows));
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->ell_of, ell, layout->n_rows));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->material, blocks, (int64_t)layout->n_rows * 4));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->modulus, modulus, layout->n_rows));
+        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->ell_of, ell, layout->n_rows));
     }
 cleanup:
     brc_memory_free(blocks);
@@ -221,7 +221,7 @@ static bool many_beams(const brc_wants *w)
     return w->many_materials && brc_wants_spheres(w);
 }
 
-#define AT(member) BRC_FIELD_AT(brc_simulation, member)
+#define AT(member) BRC_FIELD_AT(struct brc_core, member)
 static const brc_field_row rows[] = {
     {"row_start", brc_each_slice_end, 1, BRC_FIELD_INT, NULL, AT(row_start), "slice starts", "-", BRC_NOT_KEPT},
     {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-", BRC_NOT_KEPT},
@@ -258,7 +258,7 @@ BRC_FIELD_TABLE(brc_geometry_fields, "geometry", BRC_LIFE_RUN, NULL, rows);
 
 brc_status brc_geometry_create(brc_simulation *s)
 {
-    BRC_TRY(brc_fields_create(s->device, &brc_geometry_fields, &s->wants, s));
+    BRC_TRY(brc_fields_create(s->device, &brc_geometry_fields, &s->wants, s->core));
     BRC_TRY(upload_connectivity(s));
     BRC_TRY(upload_masses(s));
     return s->model->upload(s);
@@ -266,7 +266,15 @@ brc_status brc_geometry_create(brc_simulation *s)
 
 void brc_geometry_free(brc_simulation *s)
 {
-    brc_fields_free(&brc_geometry_fields, s);
+    if (s->core) brc_fields_free(&brc_geometry_fields, s->core);
+}
+
+brc_status brc_geometry_store(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds,
+                              const brc_chosen *elements)
+{
+    return brc_store_fields(
+        s, store,
+        &(brc_kept_fields){.table = &brc_geometry_fields, .owner = s->core, .bonds = bonds, .elements = elements});
 }
 
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out)

@@ -1,11 +1,11 @@
 /* Effects of a run: which there are, what they hooked in where, and calling it. */
 #include "../effects/effect.h"
-#include "simulation_internal.h"
+#include "core_internal.h"
 
 static void hook_in(brc_simulation *s, int n, const brc_hooked *hooked)
 {
     for (int k = 0; k < n; ++k) {
-        brc_hook_list *list = &s->hook[hooked[k].hook];
+        brc_hook_list *list = &s->core->hook[hooked[k].hook];
         int at = list->n++;
         for (; at > 0 && list->at[at - 1]->order > hooked[k].order; --at)
             list->at[at] = list->at[at - 1];
@@ -15,7 +15,7 @@ static void hook_in(brc_simulation *s, int n, const brc_hooked *hooked)
 
 static void list(brc_simulation *s, const char *name, bool in)
 {
-    const char **next = in ? s->effects_in : s->effects_out;
+    const char **next = in ? s->core->effects_in : s->core->effects_out;
     while (*next)
         ++next;
     *next = name;
@@ -41,7 +41,7 @@ brc_status brc_effects_create(brc_simulation *s)
         const bool in = !effects[k]->in || effects[k]->in(&s->wants);
         if (effects[k]->name) list(s, effects[k]->name, in);
         if (!in) continue;
-        s->effect[s->n_effects++] = effects[k];
+        s->core->effect[s->core->n_effects++] = effects[k];
         if (effects[k]->create) BRC_TRY(effects[k]->create(s));
         hook_in(s, effects[k]->n_hooked, effects[k]->hooked);
     }
@@ -51,21 +51,26 @@ brc_status brc_effects_create(brc_simulation *s)
 
 void brc_effects_free(brc_simulation *s)
 {
-    for (int k = s->n_effects - 1; k >= 0; --k)
-        if (s->effect[k]->free) s->effect[k]->free(s);
+    for (int k = s->core ? s->core->n_effects - 1 : -1; k >= 0; --k)
+        if (s->core->effect[k]->free) s->core->effect[k]->free(s);
 }
 
 void **brc_effect_own(brc_simulation *s, const brc_effect *effect)
 {
     int k = 0;
-    while (s->effect[k] != effect)
+    while (s->core->effect[k] != effect)
         ++k;
-    return &s->own[k];
+    return &s->core->own[k];
+}
+
+const brc_effect *brc_effect_at(const brc_simulation *s, int k)
+{
+    return k < s->core->n_effects ? s->core->effect[k] : NULL;
 }
 
 bool brc_hook_is_due(const brc_simulation *s, brc_hook hook)
 {
-    const brc_hook_list *list = &s->hook[hook];
+    const brc_hook_list *list = &s->core->hook[hook];
     for (int k = 0; k < list->n; ++k)
         if (!list->at[k]->due || list->at[k]->due(s)) return true;
     return false;
@@ -73,7 +78,7 @@ bool brc_hook_is_due(const brc_simulation *s, brc_hook hook)
 
 brc_status brc_hook_run(brc_simulation *s, brc_hook hook, const brc_occasion *now)
 {
-    const brc_hook_list *list = &s->hook[hook];
+    const brc_hook_list *list = &s->core->hook[hook];
     for (int k = 0; k < list->n; ++k) {
         const brc_hooked *h = list->at[k];
         if (h->due && !h->due(s)) continue;
@@ -92,8 +97,8 @@ brc_status brc_constrain(brc_simulation *s, brc_buffer *vector, brc_buffer *rota
 int64_t brc_effects_quiet_steps(const brc_simulation *s)
 {
     int64_t fewest = INT64_MAX;
-    for (int k = 0; k < s->n_effects; ++k) {
-        const int64_t n = s->effect[k]->quiet_steps ? s->effect[k]->quiet_steps(s) : INT64_MAX;
+    for (int k = 0; k < s->core->n_effects; ++k) {
+        const int64_t n = s->core->effect[k]->quiet_steps ? s->core->effect[k]->quiet_steps(s) : INT64_MAX;
         if (n < fewest) fewest = n;
     }
     return fewest;
@@ -102,8 +107,8 @@ int64_t brc_effects_quiet_steps(const brc_simulation *s)
 int64_t brc_effects_next_reading(const brc_simulation *s, int64_t step)
 {
     int64_t next = INT64_MAX;
-    for (int k = 0; k < s->n_effects; ++k) {
-        const int64_t n = s->effect[k]->next_reading ? s->effect[k]->next_reading(s, step) : INT64_MAX;
+    for (int k = 0; k < s->core->n_effects; ++k) {
+        const int64_t n = s->core->effect[k]->next_reading ? s->core->effect[k]->next_reading(s, step) : INT64_MAX;
         if (n < next) next = n;
     }
     return next;
@@ -111,16 +116,16 @@ int64_t brc_effects_next_reading(const brc_simulation *s, int64_t step)
 
 bool brc_effects_follow_surfaces(const brc_simulation *s)
 {
-    for (int k = 0; k < s->n_effects; ++k)
-        if (s->effect[k]->follows_surfaces) return true;
+    for (int k = 0; k < s->core->n_effects; ++k)
+        if (s->core->effect[k]->follows_surfaces) return true;
     return false;
 }
 
 int64_t brc_effects_next_look(const brc_simulation *s)
 {
     int64_t next = INT64_MAX;
-    for (int k = 0; k < s->n_effects; ++k) {
-        const int64_t n = s->effect[k]->looks ? s->effect[k]->looks->next(s) : INT64_MAX;
+    for (int k = 0; k < s->core->n_effects; ++k) {
+        const int64_t n = s->core->effect[k]->looks ? s->core->effect[k]->looks->next(s) : INT64_MAX;
         if (n < next) next = n;
     }
     return next;
@@ -128,16 +133,16 @@ int64_t brc_effects_next_look(const brc_simulation *s)
 
 void brc_effects_begin_looks(brc_simulation *s)
 {
-    for (int k = 0; k < s->n_effects; ++k)
-        if (s->effect[k]->looks) s->effect[k]->looks->begin(s);
+    for (int k = 0; k < s->core->n_effects; ++k)
+        if (s->core->effect[k]->looks) s->core->effect[k]->looks->begin(s);
 }
 
 brc_status brc_effects_end_looks(brc_simulation *s, bool *stands)
 {
     *stands = true;
-    for (int k = 0; k < s->n_effects; ++k) {
+    for (int k = 0; k < s->core->n_effects; ++k) {
         bool found_nothing = true;
-        if (s->effect[k]->looks) BRC_TRY(s->effect[k]->looks->end(s, &found_nothing));
+        if (s->core->effect[k]->looks) BRC_TRY(s->core->effect[k]->looks->end(s, &found_nothing));
         *stands = *stands && found_nothing;
     }
     return BRC_OK;
@@ -145,7 +150,7 @@ brc_status brc_effects_end_looks(brc_simulation *s, bool *stands)
 
 const brc_effect_ahead *brc_effects_ahead(const brc_simulation *s)
 {
-    for (int k = 0; k < s->n_effects; ++k)
-        if (s->effect[k]->ahead) return s->effect[k]->ahead;
+    for (int k = 0; k < s->core->n_effects; ++k)
+        if (s->core->effect[k]->ahead) return s->core->effect[k]->ahead;
     return NULL;
 }

@@ -1,18 +1,18 @@
 #include "live_arrays.h"
-#include "simulation_internal.h"
+#include "core_internal.h"
 
 int brc_simulation_live_arrays(const brc_simulation *s, brc_live_array out[BRC_LIVE_ARRAYS_MOST])
 {
-    const brc_live_array all[] = {{"displacement", "m", s->displacement, 3},
-                                  {"velocity", "m/s", s->velocity, 3},
-                                  {"force", "N", s->force, 3},
-                                  {"orientation", "-", s->orientation, 4},
-                                  {"spin", "rad/s", s->spin, 3}};
+    const brc_live_array all[] = {{"displacement", "m", s->core->displacement, 3},
+                                  {"velocity", "m/s", s->core->velocity, 3},
+                                  {"force", "N", s->core->force, 3},
+                                  {"orientation", "-", s->core->orientation, 4},
+                                  {"spin", "rad/s", s->core->spin, 3}};
     int n = 0;
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
         if (all[k].buffer) out[n++] = all[k];
-    for (int k = 0; k < s->n_effects && n < BRC_LIVE_ARRAYS_MOST; ++k)
-        if (s->effect[k]->live && s->effect[k]->live(s, out + n)) ++n;
+    for (int k = 0; k < s->core->n_effects && n < BRC_LIVE_ARRAYS_MOST; ++k)
+        if (s->core->effect[k]->live && s->core->effect[k]->live(s, out + n)) ++n;
     return n;
 }
 

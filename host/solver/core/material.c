@@ -1,5 +1,5 @@
 /* Elastic constants derived from E and nu. */
-#include "simulation_internal.h"
+#include "core_internal.h"
 
 brc_elastic brc_elastic_of(const brc_material *material)
 {

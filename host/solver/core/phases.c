@@ -1,5 +1,5 @@
 #include "phases.h"
-#include "simulation_internal.h"
+#include "core_internal.h"
 
 const char *brc_phase_name(brc_step_phase phase)
 {
@@ -10,15 +10,15 @@ const char *brc_phase_name(brc_step_phase phase)
 
 brc_step_phase brc_phase_enter(brc_simulation *s, brc_step_phase phase)
 {
-    const brc_step_phase before = s->watch.phase;
+    const brc_step_phase before = s->core->watch.phase;
     const double now = brc_clock_s();
-    s->watch.seconds[before] += now - s->watch.since;
-    s->watch.since = now;
-    s->watch.phase = phase;
+    s->core->watch.seconds[before] += now - s->core->watch.since;
+    s->core->watch.since = now;
+    s->core->watch.phase = phase;
     return before;
 }
 
 brc_step_phase brc_phase_within(brc_simulation *s, brc_step_phase phase)
 {
-    return s->watch.phase == BRC_PHASE_NONE ? BRC_PHASE_NONE : brc_phase_enter(s, phase);
+    return s->core->watch.phase == BRC_PHASE_NONE ? BRC_PHASE_NONE : brc_phase_enter(s, phase);
 }

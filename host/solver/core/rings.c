@@ -1,4 +1,5 @@
 #include "rings.h"
+#include "core_internal.h"
 
 enum { BLOCK = 1024 }; /* SCAN_BLOCK of scan.cl */
 
@@ -66,11 +67,11 @@ static brc_status make_passes(brc_simulation *s, brc_rings *r)
     const brc_scope deltas = {.owner = "differences of forces", .base = r, BRC_VALUES(differences), .outer = &run};
     BRC_TRY(BRC_PASSES(s, &deltas, BRC_PASS(&r->delta, "ring_delta", NULL),
                        BRC_PASS(&r->book, "ring_book", "listed per list lost")));
-    static const brc_value_row turning[] = {{"mass", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, inertia)},
-                                            {"force", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, torque)},
-                                            {"velocity", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, spin)}};
+    static const brc_value_row turning[] = {{"mass", BRC_VALUE_BUFFER, BRC_FIELD_AT(struct brc_core, inertia)},
+                                            {"force", BRC_VALUE_BUFFER, BRC_FIELD_AT(struct brc_core, torque)},
+                                            {"velocity", BRC_VALUE_BUFFER, BRC_FIELD_AT(struct brc_core, spin)}};
     static const brc_value_row torques[] = {{"fresh", BRC_VALUE_BUFFER, AT(torque)}};
-    const brc_scope spins = {.owner = "turning", .base = s, BRC_VALUES(turning), .outer = &rings},
+    const brc_scope spins = {.owner = "turning", .base = s->core, BRC_VALUES(turning), .outer = &rings},
                     turns = {.owner = "torques", .base = r, BRC_VALUES(torques), .outer = &spins};
     return BRC_PASSES(s, &turns, {&r->replace_turns, "ring_replace", "list", !s->model->turns});
 }
@@ -186,7 +187,7 @@ brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pas
 /* Of laws that have an energy, and steps of velocity Verlet. */
 static bool books_jumps(const brc_simulation *s, const brc_rings *r)
 {
-    return s->model->conserves && s->lost_numerical && r->half_kick > 0;
+    return s->model->conserves && s->core->lost_numerical && r->half_kick > 0;
 }
 
 /* r->force holds the change: prescribed elements swing about nothing. */
@@ -194,7 +195,7 @@ static brc_status book_jumps(brc_simulation *s, const brc_rings *r, int32_t n, i
 {
     BRC_TRY(brc_constrain(s, r->force, NULL));
     return BRC_RUN(r->book, n, {"listed", BRC_INT(listed)}, {"per", BRC_STATE(0.25 * r->half_kick * r->half_kick)},
-                   {"list", BRC_BUF(r->around.upto[k])}, {"lost", BRC_BUF(s->lost_numerical)});
+                   {"list", BRC_BUF(r->around.upto[k])}, {"lost", BRC_BUF(s->core->lost_numerical)});
 }
 
 brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int inner, int k)
@@ -208,7 +209,7 @@ brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int inner, i
 
 brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *r)
 {
-    return books_jumps(s, r) ? brc_buffer_copy(r->force, s->force, brc_buffer_bytes(s->force)) : BRC_OK;
+    return books_jumps(s, r) ? brc_buffer_copy(r->force, s->core->force, brc_buffer_bytes(s->core->force)) : BRC_OK;
 }
 
 brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *r)
@@ -224,6 +225,6 @@ brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, br
     const int32_t n = list->n[k];
     *out = 0;
     if (n == 0) return BRC_OK;
-    BRC_TRY(brc_vector_gather(s, n, list->upto[k], x, s->kinetic));
-    return brc_vector_sum(s, s->kinetic, n, out);
+    BRC_TRY(brc_vector_gather(s, n, list->upto[k], x, s->core->kinetic));
+    return brc_vector_sum(s, s->core->kinetic, n, out);
 }

@@ -5,7 +5,7 @@
 #ifndef BRC_SOLVER_RINGS_H
 #define BRC_SOLVER_RINGS_H
 
-#include "simulation_internal.h"
+#include "solver.h"
 
 enum { BRC_RING_KINDS = 4 };
 

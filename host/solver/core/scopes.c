@@ -1,7 +1,7 @@
 /* What passes of the run find by name, and which passes those are. */
-#include "simulation_internal.h"
+#include "core_internal.h"
 
-#define OF_RUN(member) BRC_FIELD_AT(brc_simulation, member)
+#define OF_RUN(member) BRC_FIELD_AT(struct brc_core, member)
 static const brc_value_row run_values[] = {
     {"lambda_one", BRC_VALUE_REAL, OF_RUN(constant.lambda)},
     {"mu_one", BRC_VALUE_REAL, OF_RUN(constant.mu)},
@@ -27,7 +27,7 @@ static const brc_value_row run_values[] = {
 brc_scope brc_scope_of_run(const brc_simulation *s)
 {
     return (brc_scope){
-        .owner = "run", .base = s, .tables = {&brc_state_fields, &brc_geometry_fields}, BRC_VALUES(run_values)};
+        .owner = "run", .base = s->core, .tables = {&brc_state_fields, &brc_geometry_fields}, BRC_VALUES(run_values)};
 }
 
 brc_scope brc_scope_of_request(const brc_scope *outer)
@@ -47,14 +47,32 @@ brc_scope brc_scope_of_sums(const brc_simulation *s, const brc_scope *outer)
 {
     static const brc_value_row values[] = {{"out", BRC_VALUE_BUFFER, OF_RUN(kinetic)},
                                            {"found", BRC_VALUE_BUFFER, OF_RUN(kinetic)}};
-    return (brc_scope){.owner = "sums", .base = s, BRC_VALUES(values), .outer = outer};
+    return (brc_scope){.owner = "sums", .base = s->core, BRC_VALUES(values), .outer = outer};
+}
+
+brc_scope brc_scope_of_velocities(const brc_simulation *s, const brc_scope *outer)
+{
+    static const brc_value_row values[] = {{"displacement", BRC_VALUE_BUFFER, OF_RUN(velocity)}};
+    return (brc_scope){.owner = "velocities", .base = s->core, BRC_VALUES(values), .outer = outer};
+}
+
+brc_scope brc_scope_of_damping(const brc_simulation *s, const brc_scope *outer)
+{
+    static const brc_value_row values[] = {{"lost", BRC_VALUE_BUFFER, OF_RUN(lost_damping)}};
+    return (brc_scope){.owner = "damping", .base = s->core, BRC_VALUES(values), .outer = outer};
+}
+
+brc_scope brc_scope_of_stresses(const brc_simulation *s, const brc_scope *outer)
+{
+    static const brc_value_row values[] = {{"stress", BRC_VALUE_BUFFER, OF_RUN(stress)}};
+    return (brc_scope){.owner = "stresses of elements", .base = s->core, BRC_VALUES(values), .outer = outer};
 }
 
 brc_status brc_passes_make(brc_simulation *s, const brc_scope *scope, int n, const brc_pass_wanted *wanted)
 {
     for (int k = 0; k < n; ++k)
         if (!wanted[k].left_out)
-            BRC_TRY(brc_pass_make(s->context, s->device, scope, wanted[k].kernel, wanted[k].open, &s->passes,
+            BRC_TRY(brc_pass_make(s->context, s->device, scope, wanted[k].kernel, wanted[k].open, &s->core->passes,
                                   wanted[k].slot));
     return BRC_OK;
 }
@@ -65,38 +83,36 @@ static void fill_constants(brc_simulation *s)
     const brc_model *model = &s->scene->model;
     static const double none[3] = {0};
     const double *g = s->scene->has_gravity ? s->scene->gravity : none;
-    s->constant = (brc_constants){.lambda = m->lambda,
-                                  .mu = m->mu,
-                                  .young = m->young,
-                                  .k = m->k,
-                                  .ell = m->ell,
-                                  .beta = model->compaction ? model->beta : 0,
-                                  .one_plus_tau = 1 + model->tau,
-                                  .rotation_factor = model->rotation_stiffness,
-                                  .couple = model->couple_modulus,
-                                  .gravity = {g[0], g[1], g[2]},
-                                  .area_weights = model->area_weights,
-                                  .finite = !model->small_rotations,
-                                  .turns = s->model->turns};
+    s->core->constant = (brc_constants){.lambda = m->lambda,
+                                        .mu = m->mu,
+                                        .young = m->young,
+                                        .k = m->k,
+                                        .ell = m->ell,
+                                        .beta = model->compaction ? model->beta : 0,
+                                        .one_plus_tau = 1 + model->tau,
+                                        .rotation_factor = model->rotation_stiffness,
+                                        .couple = model->couple_modulus,
+                                        .gravity = {g[0], g[1], g[2]},
+                                        .area_weights = model->area_weights,
+                                        .finite = !model->small_rotations,
+                                        .turns = s->model->turns};
 }
 
-brc_status brc_run_passes_make(brc_simulation *s)
+brc_status brc_core_passes_make(brc_simulation *s)
 {
-    brc_run_passes *p = &s->pass;
-    const bool turns = s->model->turns;
     fill_constants(s);
     BRC_TRY(brc_vector_kernels_find(s));
-    const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run), sums = brc_scope_of_sums(s, &run);
-    BRC_TRY(s->model->make_passes(s, &run, &request));
-    const brc_pass_wanted of_state[] = {
-        {&p->advance, "advance", "kick drift", false},
-        {&p->advance_rotation, "advance_rotation", "kick drift extra", !turns},
-        {&p->divide_by_mass, "divide_by_mass", "mass vector", false},
-        {&p->advance_tchamwa, "advance_tchamwa", "dt phi lost", false},
-        {&p->numerical_close, "numerical_close", "lost", false},
-    };
-    BRC_TRY(BRC_PASSES_MAKE(s, &run, of_state));
-    const brc_pass_wanted of_sums[] = {{&p->kinetic_energy, "kinetic_energy", "velocity", false},
-                                       {&p->add_spin_energy, "add_spin_energy", "spin", !turns}};
-    return BRC_PASSES_MAKE(s, &sums, of_sums);
+    const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run);
+    return s->model->make_passes(s, &run, &request);
+}
+
+void brc_set_beam(brc_simulation *s, double axial, double bend, double twist)
+{
+    s->core->constant.axial = axial;
+    s->core->constant.bend = bend;
+    s->core->constant.twist = twist;
+}
+void brc_set_face_loads(brc_simulation *s, bool any)
+{
+    s->core->face_loads = any;
 }

@@ -1,5 +1,5 @@
 /* State and work arrays of the elements. */
-#include "simulation_internal.h"
+#include "core_internal.h"
 
 static bool tchamwa(const brc_wants *w)
 {
@@ -33,7 +33,7 @@ static int64_t each_partial(const brc_wants *w)
     return (3 * (int64_t)w->layout->n_rows + 1023) / 1024 + 1;
 }
 
-#define AT(member) BRC_FIELD_AT(brc_simulation, member)
+#define AT(member) BRC_FIELD_AT(struct brc_core, member)
 static const brc_field_row rows[] = {
     {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements", "m",
      BRC_KEPT("displacement", BRC_KEEP_ALL)},
@@ -73,17 +73,24 @@ BRC_FIELD_TABLE(brc_state_fields, "state", BRC_LIFE_RUN, NULL, rows);
 brc_status brc_simulation_fields_create(brc_simulation *s)
 {
     double *upright = NULL;
-    BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s));
+    BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s->core));
     if (!s->model->turns) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
     for (int64_t r = 0; r < s->layout->n_rows; ++r)
         upright[4 * r] = 1;
-    const brc_status status = brc_upload_state(s, s->orientation, upright, 4 * (int64_t)s->layout->n_rows);
+    const brc_status status = brc_upload_state(s, s->core->orientation, upright, 4 * (int64_t)s->layout->n_rows);
     brc_memory_free(upright);
     return status;
 }
 
 void brc_simulation_fields_free(brc_simulation *s)
 {
-    brc_fields_free(&brc_state_fields, s);
+    if (s->core) brc_fields_free(&brc_state_fields, s->core);
+}
+
+/* Displacement gradients and stresses of dlsm follow from the displacements; the strains of dlsm-published do so only
+ * to rounding, since the half kick that closes a batch normalises its orientations once more. */
+brc_status brc_store_elements(brc_simulation *s, brc_state_store *store)
+{
+    return brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_state_fields, .owner = s->core});
 }

@@ -1,5 +1,5 @@
 /* Reading and writing the state from outside, in the order of element ids. */
-#include "simulation_internal.h"
+#include "core_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -15,80 +15,36 @@ const brc_device *brc_simulation_device(const brc_simulation *s)
 {
     return s->device;
 }
-int32_t brc_simulation_stage(const brc_simulation *s)
-{
-    return s->stage;
-}
-int64_t brc_simulation_step(const brc_simulation *s)
-{
-    return s->step;
-}
-int64_t brc_simulation_total_steps(const brc_simulation *s)
-{
-    return s->total_steps;
-}
-double brc_simulation_setup_seconds(const brc_simulation *s)
-{
-    return s->setup_seconds;
-}
-double brc_simulation_step_seconds(const brc_simulation *s)
-{
-    return s->step_seconds;
-}
 double brc_simulation_phase_seconds(const brc_simulation *s, brc_step_phase phase)
 {
-    return phase == BRC_PHASE_NONE ? 0 : s->watch.seconds[phase];
-}
-brc_time_step brc_simulation_time_step(const brc_simulation *s)
-{
-    return s->time_step;
-}
-brc_static_report brc_simulation_static_report(const brc_simulation *s)
-{
-    return s->static_report;
+    return phase == BRC_PHASE_NONE ? 0 : s->core->watch.seconds[phase];
 }
 const char *const *brc_simulation_effects_in(const brc_simulation *s)
 {
-    return s->effects_in;
+    return s->core->effects_in;
 }
 const char *const *brc_simulation_effects_out(const brc_simulation *s)
 {
-    return s->effects_out;
-}
-
-double brc_simulation_time(const brc_simulation *s)
-{
-    return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC ? s->load_factor : s->time;
-}
-
-double brc_simulation_total_time(const brc_simulation *s)
-{
-    return s->total_time_before + s->time;
-}
-
-const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
-{
-    *n = s->n_modes;
-    return s->modes;
+    return s->core->effects_out;
 }
 
 brc_status brc_simulation_displacement(brc_simulation *s, double *out)
 {
-    return brc_state_from_rows(s, s->displacement, out, 3);
+    return brc_state_from_rows(s, s->core->displacement, out, 3);
 }
 brc_status brc_simulation_velocity(brc_simulation *s, double *out)
 {
-    return brc_state_from_rows(s, s->velocity, out, 3);
+    return brc_state_from_rows(s, s->core->velocity, out, 3);
 }
 brc_status brc_simulation_force(brc_simulation *s, double *out)
 {
-    return brc_state_from_rows(s, s->force, out, 3);
+    return brc_state_from_rows(s, s->core->force, out, 3);
 }
 
 brc_status brc_simulation_set_state(brc_simulation *s, const double *displacement, const double *velocity)
 {
-    if (displacement) BRC_TRY(brc_state_to_rows(s, s->displacement, displacement, 3, 0));
-    if (velocity) BRC_TRY(brc_state_to_rows(s, s->velocity, velocity, 3, 0));
+    if (displacement) BRC_TRY(brc_state_to_rows(s, s->core->displacement, displacement, 3, 0));
+    if (velocity) BRC_TRY(brc_state_to_rows(s, s->core->velocity, velocity, 3, 0));
     BRC_TRY(brc_force_refresh(s));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_RESTART, NULL));
     return brc_force_of_state(s, BRC_BOOK_START);
@@ -99,8 +55,8 @@ brc_status brc_simulation_orientation(brc_simulation *s, double *orientation, do
     if (!s->model->turns)
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "model dlsm has no orientations of its own; ask for strains instead");
-    BRC_TRY(brc_state_from_rows(s, s->orientation, orientation, 4));
-    return spin ? brc_state_from_rows(s, s->spin, spin, 3) : BRC_OK;
+    BRC_TRY(brc_state_from_rows(s, s->core->orientation, orientation, 4));
+    return spin ? brc_state_from_rows(s, s->core->spin, spin, 3) : BRC_OK;
 }
 
 brc_status brc_simulation_virial_stress(brc_simulation *s, int level, double *stress)

@@ -1,6 +1,6 @@
 /* Arrays between the device's order and that of ids, on their way to a store and back. */
 #include "state_store.h"
-#include "simulation_internal.h"
+#include "core_internal.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

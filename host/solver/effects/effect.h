@@ -132,6 +132,9 @@ const brc_effect *const *brc_effects(int *n);
 /* ---- of a run (../core/hooks.c) ---- */
 /* What an effect keeps of its own in a run; NULL at first. */
 void **brc_effect_own(struct brc_simulation *s, const brc_effect *effect);
+enum { BRC_MOST_EFFECTS = 32 };
+/* The k-th effect of a run; NULL: there are no more. */
+const brc_effect *brc_effect_at(const struct brc_simulation *s, int k);
 /* Whether something is hooked in here that is due. */
 bool brc_hook_is_due(const struct brc_simulation *s, brc_hook hook);
 /* All that is hooked in here and due, in order. now: NULL where the hook says nothing. */

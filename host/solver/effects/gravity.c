@@ -1,5 +1,5 @@
 /* Gravity: the weight of every element, and its potential. */
-#include "../core/simulation_internal.h"
+#include "../core/solver.h"
 #include "effect.h"
 
 typedef struct brc_weights {
@@ -60,7 +60,7 @@ static brc_status potential(brc_simulation *s, const brc_occasion *now)
     const brc_domain *d = s->domain;
     double *u = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
-    const brc_status status = brc_state_from_rows(s, s->displacement, u, 3);
+    const brc_status status = brc_state_from_rows(s, brc_displacement_of(s), u, 3);
     for (int64_t e = 0; e < d->n_elements; ++e)
         for (int c = 0; c < 3; ++c)
             now->ledger->potential -= mass_of(s, e) * s->scene->gravity[c] * u[3 * e + c];

@@ -66,7 +66,7 @@ static brc_status speeds(brc_simulation *s, double *wave, double *fastest)
         *wave = fmax(*wave, sqrt((m->lambda + 2 * m->mu) / m->density));
     }
     BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
-    const brc_status status = brc_state_from_rows(s, s->velocity, v, 3);
+    const brc_status status = brc_state_from_rows(s, brc_velocity_of(s), v, 3);
     for (int64_t e = 0; e < n; ++e)
         *fastest =
             fmax(*fastest, sqrt(v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2]));
@@ -107,14 +107,14 @@ brc_status brc_guard_begin_stage(brc_simulation *s)
 static brc_status look_at_elements(brc_simulation *s)
 {
     struct brc_guard_state *g = s->guard;
-    const int64_t look = (s->step + g->look_every - 1) / g->look_every;
+    const int64_t look = (brc_simulation_step(s) + g->look_every - 1) / g->look_every;
     return BRC_RUN(g->look, g->n_blocks, {"n", BRC_INT(s->layout->n_rows)},
                    {"probe", BRC_INT(look < INT32_MAX ? look : INT32_MAX)}, {"most_u", BRC_STATE(endless)});
 }
 
 brc_status brc_guard_step(brc_simulation *s)
 {
-    return s->guard && s->step % s->guard->look_every == 0 ? look_at_elements(s) : BRC_OK;
+    return s->guard && brc_simulation_step(s) % s->guard->look_every == 0 ? look_at_elements(s) : BRC_OK;
 }
 
 static int64_t next_reading(const brc_simulation *s, int64_t step)
@@ -160,7 +160,7 @@ static brc_status fastest_element(brc_simulation *s, int64_t *element)
     const int64_t n = s->domain->n_elements;
     double *v = NULL, most = -1;
     BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
-    const brc_status status = brc_state_from_rows(s, s->velocity, v, 3);
+    const brc_status status = brc_state_from_rows(s, brc_velocity_of(s), v, 3);
     for (int64_t e = 0; e < n; ++e) {
         const double square = v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2];
         if (!(square > most)) continue;
@@ -186,7 +186,7 @@ static brc_status stop(brc_simulation *s, bool several, const char *what, int64_
     brc_guard_tell_cause(s, element, off, cause, sizeof cause);
     return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                     "stage '%s' stopped at step %lld, t = %.6g s: %s%s%s.%s%s%s Likely cause: %s",
-                    brc_current_stage(s)->name, (long long)s->step, s->time, what,
+                    brc_current_stage(s)->name, (long long)brc_simulation_step(s), brc_simulation_time(s), what,
                     several ? " in the bodies of model " : "", several ? brc_model_name(s->scene->model.kind) : "",
                     element >= 0 ? seen : "", element >= 0 ? " " : "", where, cause);
 }
@@ -219,7 +219,7 @@ brc_status brc_guard_read(brc_simulation *s, bool several, const brc_ledger *led
     brc_ledger own;
     g->report.looks += 1;
     BRC_TRY(read_looks(s, several));
-    if (!ledger && s->step % g->report.ledger_every) return BRC_OK;
+    if (!ledger && brc_simulation_step(s) % g->report.ledger_every) return BRC_OK;
     g->report.ledgers += 1;
     if (!ledger) BRC_TRY(brc_simulation_ledger(s, &own));
     if (!ledger) ledger = &own;

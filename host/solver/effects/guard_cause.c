@@ -71,7 +71,7 @@ void brc_guard_tell_element(brc_simulation *s, int64_t e, char *text, size_t siz
 
 void brc_guard_tell_cause(const brc_simulation *s, int64_t e, double off, char *text, size_t size)
 {
-    const double safety = s->time_step.safety;
+    const double safety = brc_simulation_time_step(s).safety;
     /* at whole steps velocity Verlet shows up to s^2 / (1 - s^2) more energy than it keeps, in the highest mode at s of
      * the critical step */
     const double own = safety < 1 ? safety * safety / (1 - safety * safety) : 0;

@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_GUARD_CAUSE_H
 #define BRC_SOLVER_GUARD_CAUSE_H
 
-#include "../core/simulation_internal.h"
+#include "../core/solver.h"
 
 /* Element e: where it was, how many bonds it had, how well its neighbours span space, and the last of its bonds that
  * broke. */

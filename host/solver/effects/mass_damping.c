@@ -1,5 +1,5 @@
 /* Mass damping: a drag in proportion to momentum. */
-#include "../core/simulation_internal.h"
+#include "../core/solver.h"
 #include "effect.h"
 #include <math.h>
 
@@ -20,9 +20,7 @@ static void ask(brc_wants *w, const int32_t *material)
 
 static brc_status create(brc_simulation *s)
 {
-    static const brc_value_row lost[] = {{"lost", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, lost_damping)}};
-    const brc_scope run = brc_scope_of_run(s),
-                    books = {.owner = "mass damping", .base = s, BRC_VALUES(lost), .outer = &run};
+    const brc_scope run = brc_scope_of_run(s), books = brc_scope_of_damping(s, &run);
     return BRC_PASSES(s, &books,
                       {(brc_pass **)brc_effect_own(s, &brc_mass_damping_effect), "damp_mass", "factor", false});
 }
@@ -37,7 +35,7 @@ static bool due(const brc_simulation *s)
 static brc_status drag(brc_simulation *s, const brc_occasion *now)
 {
     const double factor = exp(-brc_current_stage(s)->mass_damping * now->dt);
-    BRC_TRY(brc_constrain(s, s->velocity, NULL));
+    BRC_TRY(brc_constrain(s, brc_velocity_of(s), NULL));
     return BRC_RUN(*brc_effect_own(s, &brc_mass_damping_effect), s->layout->n_rows, {"factor", BRC_STATE(factor)});
 }
 

@@ -58,16 +58,13 @@ BRC_FIELD_TABLE(brc_noise_fields, "noise damping", BRC_LIFE_RUN, noise, rows);
 /* The stabilisation's part of the linear law, of velocities. */
 static brc_status make_passes(brc_simulation *s, struct brc_noise *d)
 {
-    static const brc_value_row of_velocities[] = {
-        {"displacement", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, velocity)},
-        {"lost", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, lost_damping)}};
     static const brc_value_row values[] = {{"ell_one", BRC_VALUE_REAL, AT(nothing)},
                                            {"beta", BRC_VALUE_REAL, AT(nothing)},
                                            {"face_loads", BRC_VALUE_BOOL, AT(never)},
                                            {"factor", BRC_VALUE_REAL, AT(factor)},
                                            {"drag", BRC_VALUE_BUFFER, AT(force)}};
-    const brc_scope run = brc_scope_of_run(s),
-                    velocities = {.owner = "velocities", .base = s, BRC_VALUES(of_velocities), .outer = &run};
+    const brc_scope run = brc_scope_of_run(s), damping = brc_scope_of_damping(s, &run),
+                    velocities = brc_scope_of_velocities(s, &damping);
     const brc_scope noise = {
         .owner = "noise damping", .base = d, .tables = {&brc_noise_fields}, BRC_VALUES(values), .outer = &velocities};
     const brc_pass_wanted wanted[] = {
@@ -95,7 +92,8 @@ static void release(brc_simulation *s)
 static brc_status enter(brc_simulation *s)
 {
     const brc_stage *stage = brc_current_stage(s);
-    const double dt = s->time_step.value, critical = s->time_step.critical > 0 ? s->time_step.critical : dt,
+    const double dt = brc_simulation_time_step(s).value,
+                 critical = brc_simulation_time_step(s).critical > 0 ? brc_simulation_time_step(s).critical : dt,
                  z = stage->noise_damping;
     s->noise->every = 0;
     if (!asks(stage) || !(dt > 0)) return BRC_OK;
@@ -108,7 +106,7 @@ static brc_status enter(brc_simulation *s)
 /* At the end of the step just done: depends on the step alone. */
 static bool due(const brc_simulation *s)
 {
-    return s->noise->every > 0 && s->step % s->noise->every == 0;
+    return s->noise->every > 0 && brc_simulation_step(s) % s->noise->every == 0;
 }
 
 brc_status brc_noise_damp(brc_simulation *s)

@@ -9,7 +9,7 @@
 #ifndef BRC_SOLVER_NOISE_DAMPING_H
 #define BRC_SOLVER_NOISE_DAMPING_H
 
-#include "../core/simulation_internal.h"
+#include "../core/solver.h"
 
 /* Damp velocities of whole steps; what they lose is booked as damping. */
 brc_status brc_noise_damp(brc_simulation *s);

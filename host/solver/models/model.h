@@ -11,8 +11,6 @@ struct brc_scope;
 struct brc_force_request;
 struct brc_rings;
 struct brc_buffer;
-struct brc_solve_vectors;
-struct brc_progress;
 struct brc_hooked;
 struct brc_strengths;
 struct brc_softening_report;
@@ -93,6 +91,11 @@ typedef struct brc_limit_case {
     double n_elements, radii, shear;
 } brc_limit_case;
 
+/* Room for the torques that displacements leave [n_rows][3]: zero: zeros, force: scratch; orientation [n_rows][4]. */
+typedef struct brc_settle_room {
+    struct brc_buffer *zero, *orientation, *force, *torque;
+} brc_settle_room;
+
 /* How a model is solved for equilibrium. */
 typedef struct brc_model_statics {
     bool rotations;         /* are unknowns beside displacements */
@@ -102,8 +105,8 @@ typedef struct brc_model_statics {
     double soft; /* of multigrid: stiffness that a rigid motion of a piece meets [-]; 0: by the precision (fine.c) */
     /* Inverses of diagonal blocks [n_rows][6], with rotations [n_rows][21]. */
     brc_status (*blocks)(struct brc_simulation *s, double *out);
-    /* After a solve of displacements: the rotations that balance them; NULL: nothing is left. */
-    brc_status (*settle)(struct brc_simulation *s, struct brc_solve_vectors *v, struct brc_progress *progress);
+    /* After a solve of displacements: the torques that rotations are to balance; NULL: there are none. */
+    brc_status (*torques)(struct brc_simulation *s, const brc_settle_room *room);
     /* Bond between elements for multigrid, of a length and its square: stiffness along and across it [N/m], of its
      * ends' rotation across and along it [N m]; NULL: that of the solid. */
     void (*bond)(const struct brc_simulation *s, int64_t e, int64_t other, double length, double square,

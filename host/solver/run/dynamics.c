@@ -1,7 +1,7 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
 #include "look.h"
 #include "motion.h"
-#include "../core/simulation_internal.h"
+#include "run_internal.h"
 #include "stage_end.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,16 +13,17 @@ enum { LEDGER_APART = 128 };
 
 static brc_status open_step(brc_simulation *s, double dt)
 {
-    return brc_hook_run(s, BRC_HOOK_OPEN_STEP, &(brc_occasion){.t = s->time, .until = (double)(s->step + 1) * dt});
+    return brc_hook_run(s, BRC_HOOK_OPEN_STEP,
+                        &(brc_occasion){.t = s->run->time, .until = (double)(s->run->step + 1) * dt});
 }
 
 /* Positions and forces at the end of the step whose motion has just been done. */
 static brc_status close_step(brc_simulation *s, double dt)
 {
-    s->step += 1;
-    s->total_steps += 1;
-    s->time = (double)s->step * dt;
-    BRC_TRY(brc_hook_run(s, BRC_HOOK_PLACE, &(brc_occasion){.t = s->time}));
+    s->run->step += 1;
+    s->run->total_steps += 1;
+    s->run->time = (double)s->run->step * dt;
+    BRC_TRY(brc_hook_run(s, BRC_HOOK_PLACE, &(brc_occasion){.t = s->run->time}));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_MOVED, NULL));
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FORCES);
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
@@ -48,13 +49,13 @@ static brc_status tchamwa_step(brc_simulation *s, double phi, double dt)
 {
     const int32_t n = s->layout->n_rows;
     BRC_TRY(open_step(s, dt));
-    BRC_TRY(BRC_RUN(s->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(phi)},
-                    {"lost", BRC_BUF(s->lost_numerical)}));
+    BRC_TRY(BRC_RUN(s->run->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(phi)},
+                    {"lost", BRC_BUF(brc_lost_numerical_of(s))}));
     /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
     BRC_TRY(brc_motion_turn(s, &(brc_occasion){.kick = dt, .drift = dt, .extra = (phi - 1) * dt, .numerical = true}));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_DRAG, &(brc_occasion){.dt = dt}));
     BRC_TRY(close_step(s, dt));
-    BRC_TRY(BRC_RUN(s->pass.numerical_close, n, {"lost", BRC_BUF(s->lost_numerical)}));
+    BRC_TRY(BRC_RUN(s->run->pass.numerical_close, n, {"lost", BRC_BUF(brc_lost_numerical_of(s))}));
     /* velocities are at whole steps already */
     return brc_hook_run(s, BRC_HOOK_BREAK, &(brc_occasion){.half_kick = 0});
 }
@@ -62,13 +63,13 @@ static brc_status tchamwa_step(brc_simulation *s, double phi, double dt)
 static brc_status take_steps(brc_simulation *s, int64_t n_steps, bool close)
 {
     const brc_stage *stage = brc_current_stage(s);
-    const double dt = s->time_step.value;
+    const double dt = s->run->time_step.value;
     for (int64_t i = 0; i < n_steps; ++i) {
         if (stage->integrator == BRC_TCHAMWA_WIELGOSZ)
             BRC_TRY(tchamwa_step(s, stage->phi, dt));
         else {
-            BRC_TRY(verlet_step(s, dt, s->open ? dt : 0.5 * dt));
-            s->open = true;
+            BRC_TRY(verlet_step(s, dt, s->run->open ? dt : 0.5 * dt));
+            s->run->open = true;
             if ((close && i + 1 == n_steps) || brc_hook_is_due(s, BRC_HOOK_WHOLE)) BRC_TRY(brc_dynamics_close(s));
         }
         BRC_TRY(brc_hook_run(s, BRC_HOOK_WHOLE, NULL));
@@ -119,8 +120,8 @@ static int64_t next_multiple(int64_t step, int64_t every)
 static brc_status advance_all(int32_t n, brc_simulation *const *part, int64_t n_steps)
 {
     brc_simulation *s = part[0];
-    for (const int64_t end = s->step + n_steps; s->step < end && !s->note[s->stage].ended;) {
-        const int64_t from = s->step, look = brc_look_next(s), until = look < end ? look : end;
+    for (const int64_t end = s->run->step + n_steps; s->run->step < end && !s->run->note[s->run->stage].ended;) {
+        const int64_t from = s->run->step, look = brc_look_next(s), until = look < end ? look : end;
         for (int32_t k = 0; k < n; ++k)
             BRC_TRY(advance(part[k], until - from, until == end));
         if (look <= until) BRC_TRY(brc_look_within(n, part, from));
@@ -158,7 +159,7 @@ static brc_status draw_up(int32_t n, brc_simulation *const *part, moment *now)
         now->elastic += ledger.elastic;
         brc_phase_enter(part[k], BRC_PHASE_NONE);
     }
-    if (breaks(part[0])) brc_regime_follow(&part[0]->regime, now->kinetic, now->elastic, now->broken > 0);
+    if (breaks(part[0])) brc_regime_follow(&part[0]->run->regime, now->kinetic, now->elastic, now->broken > 0);
     return BRC_OK;
 }
 
@@ -194,7 +195,7 @@ static void judge(brc_simulation *s, const moment *now, double n_bonds, int64_t 
 /* One line on how quick the fracture was, where this stage had some of it. */
 static void tell_regime(const brc_simulation *s, const brc_regime *before)
 {
-    const brc_regime *r = &s->regime;
+    const brc_regime *r = &s->run->regime;
     if (!r->broke || (before->broke && before->peak_elastic == r->peak_elastic)) return;
     brc_log(s->context, BRC_LOG_INFO,
             "fracture is %s: kinetic energy %.3g %% of elastic at the first break, at most %.3g %% until the peak",
@@ -206,12 +207,12 @@ static void tell_regime(const brc_simulation *s, const brc_regime *before)
  * run that goes on from one of them later is the same run. */
 static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_every, int64_t total)
 {
-    const int64_t step = s->step, look = brc_effects_next_reading(s, step);
+    const int64_t step = s->run->step, look = brc_effects_next_reading(s, step);
     int64_t until = next_multiple(step, every);
     if (frame_every && next_multiple(step, frame_every) < until) until = next_multiple(step, frame_every);
     if (look < until) until = look;
     if (until > total) until = total;
-    const int64_t most = s->patience ? s->patience->batch : BATCH;
+    const int64_t most = s->run->patience ? s->run->patience->batch : BATCH;
     return until - step < most ? until - step : most;
 }
 
@@ -221,20 +222,20 @@ static brc_status observe(int32_t n, brc_simulation *const *part, double n_bonds
 {
     brc_simulation *s = part[0];
     const brc_stage *stage = brc_current_stage(s);
-    const bool sampled = s->step % every == 0 || s->step == total || s->note[s->stage].ended,
+    const bool sampled = s->run->step % every == 0 || s->run->step == total || s->run->note[s->run->stage].ended,
                judged = breaks(s) || stage->stop_kinetic > 0 || stage->stop_broken > 0;
-    if (sampled && (judged || every >= LEDGER_APART || s->step == total || s->note[s->stage].ended)) {
+    if (sampled && (judged || every >= LEDGER_APART || s->run->step == total || s->run->note[s->run->stage].ended)) {
         moment now;
         BRC_TRY(draw_up(n, part, &now));
         const bool calm = now.kinetic <= stage->stop_kinetic * now.elastic;
-        s->progress.calm_steps = calm ? s->progress.calm_steps + (s->step - s->progress.judged_step) : 0;
-        s->progress.judged_step = s->step;
-        judge(s, &now, n_bonds, s->progress.calm_steps);
-    } else if (sampled || brc_effects_next_reading(s, s->step - 1) == s->step) {
+        s->run->calm_steps = calm ? s->run->calm_steps + (s->run->step - s->run->judged_step) : 0;
+        s->run->judged_step = s->run->step;
+        judge(s, &now, n_bonds, s->run->calm_steps);
+    } else if (sampled || brc_effects_next_reading(s, s->run->step - 1) == s->run->step) {
         BRC_TRY(read_all(n, part));
     }
     if (sampled) BRC_TRY(brc_notify_sample(s));
-    return frame_every && s->step % frame_every == 0 && s->step < total && !s->note[s->stage].ended
+    return frame_every && s->run->step % frame_every == 0 && s->run->step < total && !s->run->note[s->run->stage].ended
                ? brc_notify_frame(s)
                : BRC_OK;
 }
@@ -244,8 +245,8 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
     brc_simulation *s = part[0];
     const brc_stage *stage = brc_current_stage(s);
     const brc_output *output = &s->scene->output;
-    const int64_t total = brc_simulation_planned_steps(s, s->stage, s->time_step.value), first = s->step;
-    const double dt = s->time_step.value;
+    const int64_t total = brc_simulation_planned_steps(s, s->run->stage, s->run->time_step.value), first = s->run->step;
+    const double dt = s->run->time_step.value;
     int64_t every = output->history_every > 0 ? output->history_every : (total + SAMPLES - 1) / SAMPLES;
     if (every < 1) every = 1;
     int64_t frame_every = output->n_frames > 0         ? total / output->n_frames
@@ -258,7 +259,7 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
     for (int32_t k = 0; k < n; ++k)
         n_bonds += (double)part[k]->domain->n_bonds;
     BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total - first, "steps", n_bonds, "bond updates/s"));
-    const brc_regime before = s->regime;
+    const brc_regime before = s->run->regime;
     for (int32_t k = 0; k < n; ++k)
         BRC_TRY_OR(cleanup, brc_hook_run(part[k], BRC_HOOK_STEPS, NULL));
     if (!resumed) {
@@ -266,17 +267,17 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
         if (breaks(s)) BRC_TRY_OR(cleanup, draw_up(n, part, &now));
         BRC_TRY_OR(cleanup, brc_notify_sample(s));
     }
-    while (s->step < total && !s->note[s->stage].ended) {
+    while (s->run->step < total && !s->run->note[s->run->stage].ended) {
         BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s, every, frame_every, total)));
-        brc_progress_update(progress, s->step - first);
+        brc_progress_update(progress, s->run->step - first);
         BRC_TRY_OR(cleanup, observe(n, part, n_bonds, every, frame_every, total));
-        BRC_TRY_OR(cleanup, brc_notify_pause(s, brc_simulation_is_to_stop(s) ? BRC_PAUSE_INTERRUPTED
-                                                : s->note[s->stage].ended    ? BRC_PAUSE_ENDED
-                                                : s->step < total            ? BRC_PAUSE_GOING
-                                                                             : BRC_PAUSE_DONE));
+        BRC_TRY_OR(cleanup, brc_notify_pause(s, brc_simulation_is_to_stop(s)        ? BRC_PAUSE_INTERRUPTED
+                                                : s->run->note[s->run->stage].ended ? BRC_PAUSE_ENDED
+                                                : s->run->step < total              ? BRC_PAUSE_GOING
+                                                                                    : BRC_PAUSE_DONE));
         if (brc_simulation_is_to_stop(s)) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld",
-                              stage->name, (long long)s->step, (long long)total);
+                              stage->name, (long long)s->run->step, (long long)total);
             goto cleanup;
         }
     }

@@ -1,7 +1,7 @@
 /* Initial fields of a stage, added to the state. */
 #include "../../base/file.h"
 #include "../../base/random.h"
-#include "../core/simulation_internal.h"
+#include "run_internal.h"
 #include <hdf5.h>
 #include <math.h>
 #include <string.h>
@@ -155,8 +155,8 @@ brc_status brc_initial_apply(brc_simulation *s, const brc_stage *stage)
                 to[3 * e + c] += add[c];
         }
     }
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->displacement, u, 3, 0));
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->velocity, v, 3, 0));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, brc_displacement_of(s), u, 3, 0));
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, brc_velocity_of(s), v, 3, 0));
 cleanup:
     brc_memory_free(u);
     brc_memory_free(v);

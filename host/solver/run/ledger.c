@@ -1,6 +1,6 @@
 /* The energy ledger (docs/notebook/theory.md T4): its terms are named once; closure is relative to the largest
  * energy. */
-#include "../core/simulation_internal.h"
+#include "run_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -14,19 +14,19 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
 {
     memset(out, 0, sizeof *out);
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_RUN(s->pass.kinetic_energy, n, {"velocity", BRC_BUF(s->velocity)}));
-    if (s->model->turns) BRC_TRY(BRC_RUN(s->pass.add_spin_energy, n, {"spin", BRC_BUF(s->spin)}));
-    BRC_TRY(brc_vector_sum(s, s->kinetic, n, &out->kinetic));
+    BRC_TRY(BRC_RUN(s->run->pass.kinetic_energy, n, {"velocity", BRC_BUF(brc_velocity_of(s))}));
+    if (s->model->turns) BRC_TRY(BRC_RUN(s->run->pass.add_spin_energy, n, {"spin", BRC_BUF(brc_spin_of(s))}));
+    BRC_TRY(brc_vector_sum(s, brc_kinetic_of(s), n, &out->kinetic));
     BRC_TRY(brc_force_energies(s, &out->elastic, &out->stabilisation));
-    BRC_TRY(lost(s, s->lost_damping, &out->damping));
-    out->damping += s->released;
-    BRC_TRY(lost(s, s->lost_numerical, &out->numerical));
+    BRC_TRY(lost(s, brc_lost_damping_of(s), &out->damping));
+    out->damping += brc_statics_released(s);
+    BRC_TRY(lost(s, brc_lost_numerical_of(s), &out->numerical));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_LEDGER, &(brc_occasion){.ledger = out}));
-    out->initial = s->initial_energy;
-    if (out->elastic > s->peak_elastic) s->peak_elastic = out->elastic;
-    if (out->kinetic > s->peak_kinetic) s->peak_kinetic = out->kinetic;
-    out->peak_elastic = s->peak_elastic;
-    out->peak_kinetic = s->peak_kinetic;
+    out->initial = s->run->initial_energy;
+    if (out->elastic > s->run->peak_elastic) s->run->peak_elastic = out->elastic;
+    if (out->kinetic > s->run->peak_kinetic) s->run->peak_kinetic = out->kinetic;
+    out->peak_elastic = s->run->peak_elastic;
+    out->peak_kinetic = s->run->peak_kinetic;
     brc_ledger_close(out);
     return BRC_OK;
 }

@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_MOTION_H
 #define BRC_SOLVER_MOTION_H
 
-#include "../core/simulation_internal.h"
+#include "../core/solver.h"
 
 /* Velocities gain force over mass times `kick`, then everything moves for a time of `drift` [s]. */
 brc_status brc_motion(brc_simulation *s, double kick, double drift);

@@ -1,7 +1,7 @@
 /* Making and freeing a simulation, entering stages, running them, and the observers. */
 #include "split.h"
 #include "look.h"
-#include "../core/simulation_internal.h"
+#include "run_internal.h"
 #include "../../base/ranks.h"
 #include "../../device/shares.h"
 #include <math.h>
@@ -102,7 +102,10 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     s->model = brc_bond_model_of(scene->model.kind);
     s->domain = domain;
     s->device = device;
-    s->stage = -1;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->run, 1, "simulation"));
+    BRC_TRY_OR(cleanup, brc_core_create(s));
+    BRC_TRY_OR(cleanup, brc_statics_create(s));
+    s->run->stage = -1;
     if (brc_simulation_needs_many_materials(scene, domain) != brc_device_has_many_materials(device)) {
         status = BRC_FAIL(context, BRC_INTERNAL, "the device was opened for %s material, the scene has %s",
                           brc_device_has_many_materials(device) ? "several" : "one",
@@ -110,17 +113,18 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_simulation_layout(context, scene, domain, brc_device_slice(device), &s->layout));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->note, scene->n_stages, "stages"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->run->note, scene->n_stages, "stages"));
     BRC_TRY_OR(cleanup, find_materials(s));
     brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
     s->n_groups = s->wants.n_groups;
     BRC_TRY_OR(cleanup, share_rows(s));
     if (s->model->create) BRC_TRY_OR(cleanup, s->model->create(s));
+    BRC_TRY_OR(cleanup, brc_core_passes_make(s));
     BRC_TRY_OR(cleanup, brc_run_passes_make(s));
     BRC_TRY_OR(cleanup, brc_geometry_create(s));
     BRC_TRY_OR(cleanup, brc_simulation_fields_create(s));
     BRC_TRY_OR(cleanup, brc_effects_create(s));
-    s->setup_seconds = brc_clock_s() - start;
+    s->run->setup_seconds = brc_clock_s() - start;
     *out = s;
     return BRC_OK;
 cleanup:
@@ -137,29 +141,29 @@ void brc_simulation_free(brc_simulation **simulation)
     if (s->model->free) s->model->free(s);
     brc_look_free(s);
     brc_geometry_free(s);
-    brc_passes_free(&s->passes);
+    brc_core_free(s);
     brc_layout_free(&s->layout);
     brc_memory_free(s->elastic);
-    brc_memory_free(s->beam);
     brc_memory_free(s->material_of_element);
-    brc_memory_free(s->modes);
-    brc_memory_free(s->note);
+    brc_statics_free(s);
+    if (s->run) brc_memory_free(s->run->note);
+    brc_memory_free(s->run);
     brc_memory_free(s);
     *simulation = NULL;
 }
 
 brc_status brc_simulation_observe(brc_simulation *s, const brc_observer *observer)
 {
-    if (s->n_observers == BRC_MOST_OBSERVERS)
+    if (s->run->n_observers == BRC_MOST_OBSERVERS)
         return BRC_FAIL(s->context, BRC_INTERNAL, "more than %d observers", BRC_MOST_OBSERVERS);
-    s->observers[s->n_observers++] = *observer;
+    s->run->observers[s->run->n_observers++] = *observer;
     return BRC_OK;
 }
 
 static brc_status leave_stage(brc_simulation *s)
 {
-    if (s->stage < 0) return BRC_OK;
-    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC) s->total_time_before += s->time;
+    if (s->run->stage < 0) return BRC_OK;
+    if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC) s->run->total_time_before += s->run->time;
     return brc_hook_run(s, BRC_HOOK_LEAVE, NULL);
 }
 
@@ -170,20 +174,20 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     const double start = brc_clock_s();
     const brc_stage *next = s->scene->stages + stage;
     brc_ledger before = {0};
-    if (s->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
-    s->total_before_stage = before.total;
+    if (s->run->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
+    s->run->total_before_stage = before.total;
     BRC_TRY(leave_stage(s));
-    s->left_off = false;
-    s->stage = -1; /* lists of the next stage are not there yet */
+    s->run->left_off = false;
+    s->run->stage = -1; /* lists of the next stage are not there yet */
     BRC_TRY(brc_initial_apply(s, next));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_ENTER, &(brc_occasion){.stage = next}));
-    s->stage = stage;
-    s->step = 0;
-    s->time = s->load_factor = 0;
-    s->progress = (brc_stage_progress){0};
-    if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->time_step));
+    s->run->stage = stage;
+    s->run->step = 0;
+    s->run->time = s->run->load_factor = 0;
+    s->run->calm_steps = s->run->judged_step = 0;
+    if (next->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(brc_time_step_find(s, next, &s->run->time_step));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_ENTERED, NULL));
-    s->setup_seconds += brc_clock_s() - start;
+    s->run->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
 }
 
@@ -198,9 +202,9 @@ brc_status brc_stage_start(brc_simulation *s)
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_STARTED, &(brc_occasion){.ledger = &after}));
-    s->initial_energy +=
-        after.total - s->total_before_stage; /* initial fields, and what changed supports hold or release */
-    s->setup_seconds += brc_clock_s() - start;
+    s->run->initial_energy +=
+        after.total - s->run->total_before_stage; /* initial fields, and what changed supports hold or release */
+    s->run->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
 }
 
@@ -214,34 +218,17 @@ brc_status brc_simulation_find_time_step(brc_simulation *s, int32_t stage, brc_t
 {
     BRC_TRY(brc_simulation_begin_stage(s, stage));
     if (brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC)
-        *out = s->time_step;
+        *out = s->run->time_step;
     else
         *out = (brc_time_step){.governed_by = "no time step: not a dynamic stage"};
     return BRC_OK;
-}
-
-void brc_simulation_interrupt(brc_simulation *s)
-{
-    s->interrupted = 1;
-    for (int32_t k = 0; k < s->n_others; ++k)
-        s->others[k]->interrupted = 1;
-}
-
-void brc_simulation_set_patience(brc_simulation *s, const brc_patience *patience)
-{
-    s->patience = patience;
-}
-
-bool brc_simulation_left_off(const brc_simulation *s)
-{
-    return s->left_off;
 }
 
 brc_status brc_simulation_advance(brc_simulation *s, int64_t n_steps)
 {
     const double start = brc_clock_s();
     const brc_status status = brc_dynamics_advance(s, n_steps);
-    s->step_seconds += brc_clock_s() - start;
+    s->run->step_seconds += brc_clock_s() - start;
     return status;
 }
 

@@ -1,7 +1,7 @@
 /* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (docs/notebook/theory.md
  * T5), or as given, or the papers' rule. */
 #include "../../base/random.h"
-#include "../core/simulation_internal.h"
+#include "run_internal.h"
 #include <math.h>
 
 enum { MOST_ITERATIONS = 2000, WATCH = 20 };
@@ -87,26 +87,27 @@ static brc_status apply(brc_simulation *s, work_vectors *w, double *rayleigh)
                                                        .homogeneous = true}));
     BRC_TRY(brc_vector_dot(s, w->x, w->y, 3 * (int64_t)n, &part));
     energy -= part;
-    BRC_TRY(BRC_RUN(s->pass.kinetic_energy, n, {"velocity", BRC_BUF(w->x)}));
+    BRC_TRY(BRC_RUN(s->run->pass.kinetic_energy, n, {"velocity", BRC_BUF(w->x)}));
     if (turns) {
         BRC_TRY(brc_vector_dot(s, w->theta, w->torque, 3 * (int64_t)n, &part));
         energy -= part;
-        BRC_TRY(BRC_RUN(s->pass.add_spin_energy, n, {"spin", BRC_BUF(w->theta)}));
+        BRC_TRY(BRC_RUN(s->run->pass.add_spin_energy, n, {"spin", BRC_BUF(w->theta)}));
     }
-    BRC_TRY(brc_vector_sum(s, s->kinetic, n, &mass_norm));
+    BRC_TRY(brc_vector_sum(s, brc_kinetic_of(s), n, &mass_norm));
     mass_norm *= 2;
     if (!(mass_norm > 0) || !isfinite(energy))
         return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                         "the power iteration for the time step met x.Mx = %g, x.Kx = %g; %s", mass_norm, energy,
                         "check densities and the geometry (breccia build prints its quality)");
     *rayleigh = energy / mass_norm;
-    BRC_TRY(BRC_RUN(s->pass.divide_by_mass, n, {"mass", BRC_BUF(s->mass)}, {"vector", BRC_BUF(w->y)}));
+    BRC_TRY(BRC_RUN(s->run->pass.divide_by_mass, n, {"mass", BRC_BUF(brc_mass_of(s))}, {"vector", BRC_BUF(w->y)}));
     /* x = y / |y| in size: scale by 1 / (rayleigh * sqrt(mass_norm)), which keeps x.Mx near 1 */
     const double scale = *rayleigh != 0 ? 1 / (fabs(*rayleigh) * sqrt(mass_norm)) : 1;
     BRC_TRY(brc_buffer_fill_zero(w->x));
     BRC_TRY(brc_vector_axpy(s, 3 * (int64_t)n, -scale, w->y, w->x));
     if (turns) {
-        BRC_TRY(BRC_RUN(s->pass.divide_by_mass, n, {"mass", BRC_BUF(s->inertia)}, {"vector", BRC_BUF(w->torque)}));
+        BRC_TRY(BRC_RUN(s->run->pass.divide_by_mass, n, {"mass", BRC_BUF(brc_inertia_of(s))},
+                        {"vector", BRC_BUF(w->torque)}));
         BRC_TRY(brc_buffer_fill_zero(w->theta));
         BRC_TRY(brc_vector_axpy(s, 3 * (int64_t)n, -scale, w->torque, w->theta));
     }
@@ -167,8 +168,8 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         BRC_TRY(critical_step(s, &out->critical));
     }
     double beside[BRC_MOST_EFFECTS];
-    for (int k = 0; k < s->n_effects; ++k) {
-        const brc_effect_step_bound *other = s->effect[k]->step_bound;
+    for (int k = 0; brc_effect_at(s, k); ++k) {
+        const brc_effect_step_bound *other = brc_effect_at(s, k)->step_bound;
         beside[k] = INFINITY;
         if (other) BRC_TRY(other->find(s, &beside[k]));
         if (!isfinite(beside[k])) continue; /* squares of frequencies of two springs on one mass add at most */
@@ -187,8 +188,8 @@ brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_tim
         out->value = stage->safety * out->critical;
     }
     out->safety = out->value / out->critical;
-    for (int k = 0; k < s->n_effects; ++k)
-        if (s->effect[k]->step_bound) s->effect[k]->step_bound->check(s, stage->name, beside[k], out);
+    for (int k = 0; brc_effect_at(s, k); ++k)
+        if (brc_effect_at(s, k)->step_bound) brc_effect_at(s, k)->step_bound->check(s, stage->name, beside[k], out);
     if (out->safety > 1)
         brc_log(s->context, BRC_LOG_WARNING,
                 "stage '%s': the time step %.4g s is %.3g times the critical one; expect it to diverge", stage->name,

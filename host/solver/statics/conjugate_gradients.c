@@ -1,5 +1,5 @@
 /* Preconditioned conjugate gradients on the linearised operator, matrix-free on the device. */
-#include "statics.h"
+#include "statics_internal.h"
 #include <math.h>
 
 /* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on
@@ -43,7 +43,7 @@ static brc_status remove_free_motions(brc_simulation *s, brc_solve_vectors *v)
 brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most,
                                    brc_progress *progress, double *left)
 {
-    const int64_t before = s->static_report.iterations;
+    const int64_t before = s->statics->report.iterations;
     double rz, rr, pkp, first, best = INFINITY;
     int64_t since_best = 0;
     BRC_TRY(brc_buffer_fill_zero(v->x.move));
@@ -69,8 +69,8 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
         BRC_TRY(brc_statics_square(s, v, v->r, &rr));
         BRC_TRY(brc_unknowns_scale_add(s, v->z, next / rz, v->p));
         rz = next;
-        s->static_report.iterations += 1;
-        brc_progress_update(progress, s->static_report.iterations);
+        s->statics->report.iterations += 1;
+        brc_progress_update(progress, s->statics->report.iterations);
         if (brc_simulation_is_to_stop(s))
             return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
         if (brc_leaves_off(s)) break;
@@ -81,6 +81,6 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
     }
     *left = sqrt(rr);
     if (rotations) return BRC_OK;
-    brc_preconditioner_took(v, s->static_report.iterations - before, first, *left);
+    brc_preconditioner_took(v, s->statics->report.iterations - before, first, *left);
     return remove_free_motions(s, v);
 }

@@ -1,5 +1,5 @@
 /* Motions that the supports leave to a body or a piece of one. */
-#include "statics.h"
+#include "statics_internal.h"
 
 brc_status brc_statics_project_free_motions(brc_simulation *s, const brc_solve_vectors *v, brc_unknowns r)
 {

@@ -1,6 +1,6 @@
 /* Restarted GMRES for operators that are not symmetric (dlsm-published). The basis lives on the host; each iteration
  * sends one vector to the device and fetches one back. */
-#include "multigrid/multigrid.h"
+#include "statics_internal.h"
 #include <math.h>
 #include <string.h>
 
@@ -114,8 +114,8 @@ static brc_status grow(brc_simulation *s, brc_solve_vectors *v, space *q, double
         q->h[*k][*k] = hyp;
         q->g[*k + 1] = -q->sine[*k] * q->g[*k];
         q->g[*k] *= q->cosine[*k];
-        s->static_report.iterations += 1;
-        brc_progress_update(progress, s->static_report.iterations);
+        s->statics->report.iterations += 1;
+        brc_progress_update(progress, s->statics->report.iterations);
         if (brc_simulation_is_to_stop(s))
             return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
         if (length > 0)
@@ -154,7 +154,7 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, make(s, v, &q));
     double norm = sqrt(dot(q.r, q.r, q.n));
-    for (int32_t done = 0; done < most && norm > target && !s->left_off;) {
+    for (int32_t done = 0; done < most && norm > target && !brc_simulation_left_off(s);) {
         int k;
         for (int64_t i = 0; i < q.n; ++i)
             q.basis[i] = q.r[i] / norm;

@@ -5,7 +5,7 @@
  * are in the first block, so they converge at once and are left out of the result. */
 #include "../../base/random.h"
 #include "../effects/loads/loads.h"
-#include "multigrid/multigrid.h"
+#include "statics_internal.h"
 #include "ritz.h"
 #include <math.h>
 #include <stdlib.h>
@@ -89,7 +89,8 @@ static brc_status allocate(mode_space *t)
     BRC_TRY(brc_fields_create(s->device, &brc_mode_fields, &s->wants, t));
     BRC_TRY(prepare_preconditioner(t));
     double *mass = t->w; /* scratch */
-    BRC_TRY(brc_download(s, s->mass, brc_precision_state_bytes(brc_device_get_precision(s->device)), mass, t->n / 3));
+    BRC_TRY(brc_download(s, brc_mass_of(s), brc_precision_state_bytes(brc_device_get_precision(s->device)), mass,
+                         t->n / 3));
     for (int64_t i = 0; i < t->n; ++i) {
         t->mass[i] = mass[i / 3];
         t->fixed[i] = s->layout->element_of_row[i / 3] < 0;
@@ -334,7 +335,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         }
         const double worst = residuals(t, values, wanted, active);
         brc_progress_update(progress, round + 1);
-        s->static_report.iterations = round + 1;
+        s->statics->report.iterations = round + 1;
         if (worst < settled) goto cleanup;
         if ((round + 1) % WATCH == 0 &&
             change_since(values, before, m - GUARD_VECTORS) < steady[!s->model->statics->symmetric])
@@ -386,22 +387,23 @@ brc_status brc_modes_run(brc_simulation *s)
                                             (double)s->domain->n_bonds * t.m, "bond updates/s"));
     BRC_TRY_OR(cleanup, allocate(&t));
     BRC_TRY_OR(cleanup, first_block(&t));
-    s->static_report = (brc_static_report){0};
+    s->statics->report = (brc_static_report){0};
     BRC_TRY_OR(cleanup, iterate(&t, values, wanted, progress));
-    brc_memory_free(s->modes);
-    s->modes = NULL;
-    s->n_modes = 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->modes, t.m, "modes"));
-    for (int k = 0; k < t.m && s->n_modes < wanted; ++k)
-        if (values[k] > rigid_part * values[t.m - 1]) s->modes[s->n_modes++] = sqrt(values[k]);
-    if (s->n_modes < wanted &&
-        !s->left_off) /* the rounding of forces in less than double precision grows in the search space */
+    brc_memory_free(s->statics->modes);
+    s->statics->modes = NULL;
+    s->statics->n_modes = 0;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->statics->modes, t.m, "modes"));
+    for (int k = 0; k < t.m && s->statics->n_modes < wanted; ++k)
+        if (values[k] > rigid_part * values[t.m - 1]) s->statics->modes[s->statics->n_modes++] = sqrt(values[k]);
+    if (s->statics->n_modes < wanted &&
+        !brc_simulation_left_off(
+            s)) /* the rounding of forces in less than double precision grows in the search space */
         BRC_TRY_OR(cleanup,
                    BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                             "stage '%s': %d of %d modes found above the rigid motions; modes want double precision",
-                            stage->name, s->n_modes, wanted));
-    s->step = 1;
-    s->load_factor = 1;
+                            stage->name, s->statics->n_modes, wanted));
+    brc_clock_set_step(s, 1);
+    brc_clock_set_load(s, 1);
     BRC_TRY_OR(cleanup, brc_force_of_state(s, BRC_BOOK_NOTHING));
 cleanup:
     brc_progress_finish(&progress);

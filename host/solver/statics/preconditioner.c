@@ -1,6 +1,6 @@
 /* What stands for K^-1 in the iterations of static stages. */
 #include "multigrid/multigrid.h"
-#include "statics.h"
+#include "statics_internal.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -29,9 +29,9 @@ brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, boo
 static void tell(brc_simulation *s, const brc_multigrid *multigrid, const char *again)
 {
     const brc_multigrid_report m = brc_multigrid_get_report(multigrid);
-    s->static_report.multigrid_levels = m.n_levels;
-    s->static_report.multigrid_seconds += m.seconds;
-    s->static_report.multigrid_bytes = m.device_bytes;
+    s->statics->report.multigrid_levels = m.n_levels;
+    s->statics->report.multigrid_seconds += m.seconds;
+    s->statics->report.multigrid_bytes = m.device_bytes;
     char nodes[200] = "";
     for (int i = 0, at = 0; i < m.n_levels && at < (int)sizeof nodes; ++i)
         at += snprintf(nodes + at, sizeof nodes - (size_t)at, "%s%lld", i > 0 ? ", " : "", (long long)m.nodes[i]);

@@ -1,6 +1,6 @@
 /* Vectors of static solves, on the device. */
 #include "multigrid/multigrid.h"
-#include "statics.h"
+#include "statics_internal.h"
 
 static bool solves_rotations(const brc_wants *w)
 {
@@ -12,7 +12,7 @@ static bool solves_moves(const brc_wants *w)
 }
 static bool settles_rotations(const brc_wants *w)
 {
-    return w->model->statics && w->model->statics->settle;
+    return w->model->statics && w->model->statics->torques;
 }
 static bool statics(const brc_wants *w)
 {

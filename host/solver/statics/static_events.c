@@ -50,11 +50,11 @@ static brc_status scale_all(events *v, double factor, bool solve)
     for (int32_t k = 0; k < v->n; ++k) {
         brc_simulation *s = v->part[k];
         BRC_TRY(brc_statics_scale(s, &v->run[k].vectors, factor));
-        s->load_factor *= factor;
+        brc_clock_set_load(s, brc_loads_time(s) * factor);
         if (solve)
             BRC_TRY(brc_statics_solve_at(s, &v->run[k], v->progress));
         else {
-            BRC_TRY(brc_loads_prescribe(s, s->load_factor));
+            BRC_TRY(brc_loads_prescribe(s, brc_loads_time(s)));
             BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
         }
     }
@@ -88,7 +88,7 @@ static brc_status go_to_next(events *v, bool *carries)
 static brc_status load_of(events *v, double *load)
 {
     double energy = 0;
-    *load = v->part[0]->load_factor;
+    *load = brc_loads_time(v->part[0]);
     if (!v->moves) return BRC_OK;
     for (int32_t k = 0; k < v->n; ++k) {
         brc_ledger ledger;
@@ -126,7 +126,7 @@ static brc_status break_next(events *v)
         if (v->margin > widest_margin)
             return BRC_FAIL(v->context, BRC_INTERNAL,
                             "stage '%s': no bond breaks at the load factor %.9g where one fails", v->stage->name,
-                            v->part[0]->load_factor);
+                            brc_loads_time(v->part[0]));
         BRC_TRY(go_to_next(v, &carries));
     }
 }
@@ -143,7 +143,7 @@ static brc_status unload(events *v)
     for (int32_t k = 0; k < v->n; ++k) {
         brc_simulation *s = v->part[k];
         BRC_TRY(brc_statics_scale(s, &v->run[k].vectors, 0));
-        s->load_factor = 0;
+        brc_clock_set_load(s, 0);
         BRC_TRY(brc_loads_prescribe(s, 0));
         BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     }
@@ -157,7 +157,7 @@ static brc_status come_apart(events *v)
     char reason[200] = "the body came apart: what is left has no equilibrium under load";
     double worst = 0;
     for (int32_t k = 0; k < v->n; ++k)
-        worst = fmax(worst, v->part[k]->static_report.residual);
+        worst = fmax(worst, v->part[k]->statics->report.residual);
     if (worst < stalled)
         snprintf(reason, sizeof reason,
                  "the solve of the next event stalls at a residual of %.3g of the load, asked %.3g: relax `tolerance`, "
@@ -173,10 +173,10 @@ static brc_status come_apart(events *v)
 static brc_status start_again(events *v)
 {
     static const double share = 0.1; /* far above `nothing` */
-    const double load = v->part[0]->load_factor;
+    const double load = brc_loads_time(v->part[0]);
     BRC_TRY(unload(v));
     for (int32_t k = 0; k < v->n; ++k)
-        v->part[k]->load_factor = share * load;
+        brc_clock_set_load(v->part[k], share * load);
     const brc_status solved = solve_all(v);
     return solved == BRC_PHYSICS_STOPPED ? come_apart(v) : solved;
 }
@@ -188,7 +188,7 @@ static brc_status do_event(events *v, brc_ledger *before)
         BRC_TRY(brc_simulation_ledger(v->part[k], &before[k]));
     BRC_TRY(break_next(v));
     for (int32_t k = 0; k < v->n; ++k) {
-        v->part[k]->step += 1;
+        brc_clock_set_step(v->part[k], brc_simulation_step(v->part[k]) + 1);
         v->run[k].vectors.preconditioner.bonds_broke = true;
         BRC_TRY(brc_statics_find_pieces(v->part[k], &v->run[k].vectors));
     }
@@ -200,7 +200,7 @@ static brc_status do_event(events *v, brc_ledger *before)
     for (int32_t k = 0; k < v->n; ++k) {
         brc_ledger after;
         BRC_TRY(brc_simulation_ledger(v->part[k], &after));
-        v->part[k]->released += balance(&before[k]) - balance(&after);
+        v->part[k]->statics->released += balance(&before[k]) - balance(&after);
     }
     return BRC_OK;
 }
@@ -221,12 +221,12 @@ static void judge(events *v, double load)
 static brc_status tell_pause(const events *v)
 {
     brc_simulation *s = v->part[0];
-    s->progress.margin = v->margin;
-    s->progress.largest_load = v->largest_load;
+    s->statics->margin = v->margin;
+    s->statics->largest_load = v->largest_load;
     BRC_TRY(brc_notify_pause(s, brc_simulation_is_to_stop(s) ? BRC_PAUSE_INTERRUPTED : BRC_PAUSE_GOING));
     if (!brc_simulation_is_to_stop(s)) return BRC_OK;
     return BRC_FAIL(v->context, BRC_INTERRUPTED, "stage '%s' was interrupted after event %lld of %d", v->stage->name,
-                    (long long)s->step, (int)v->stage->most_events);
+                    (long long)brc_simulation_step(s), (int)v->stage->most_events);
 }
 
 brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
@@ -240,9 +240,9 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
     brc_ledger *before = NULL;
     brc_status status = BRC_OK;
     bool carries;
-    const int32_t first = (int32_t)s->step; /* events that a resumed stage has behind it */
-    v.margin = first > 0 ? s->progress.margin : is_double ? 1e-9 : 2e-6;
-    v.largest_load = s->progress.largest_load;
+    const int32_t first = (int32_t)brc_simulation_step(s); /* events that a resumed stage has behind it */
+    v.margin = first > 0 ? s->statics->margin : is_double ? 1e-9 : 2e-6;
+    v.largest_load = s->statics->largest_load;
     v.nothing = fmax(1e-3, 100 * brc_statics_tolerance(s));
     for (int32_t k = 0; k < n; ++k)
         for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l)
@@ -253,14 +253,14 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
                         stage->name);
     BRC_TRY(BRC_ALLOCATE(s->context, &before, n, "events"));
     for (int32_t k = 0; first == 0 && k < n; ++k)
-        part[k]->load_factor = 1;
+        brc_clock_set_load(part[k], 1);
     if (first == 0) BRC_TRY_OR(cleanup, solve_all(&v));
-    for (int32_t event = first; !s->note[s->stage].ended; ++event) {
+    for (int32_t event = first; !brc_stage_has_ended(s); ++event) {
         double load;
         status = go_to_next(&v, &carries);
         if (status == BRC_PHYSICS_STOPPED && event > 0) { /* too far from the last state to follow it */
             BRC_TRY_OR(cleanup, start_again(&v));
-            if (s->note[s->stage].ended) break;
+            if (brc_stage_has_ended(s)) break;
             status = go_to_next(&v, &carries);
             if (status == BRC_PHYSICS_STOPPED) {
                 status = come_apart(&v);
@@ -280,9 +280,9 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
         }
         BRC_TRY_OR(cleanup, load_of(&v, &load));
         judge(&v, load);
-        BRC_TRY_OR(cleanup, brc_look_here(s, s->step - 1));
+        BRC_TRY_OR(cleanup, brc_look_here(s, brc_simulation_step(s) - 1));
         BRC_TRY_OR(cleanup, brc_notify_sample(s));
-        if (event == stage->most_events || s->note[s->stage].ended) break;
+        if (event == stage->most_events || brc_stage_has_ended(s)) break;
         BRC_TRY_OR(cleanup, do_event(&v, before));
         if (frame_every > 0 && (event + 1) % frame_every == 0 && event + 1 < stage->most_events)
             BRC_TRY_OR(cleanup, brc_notify_frame(s));

@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_STATIC_EVENTS_H
 #define BRC_SOLVER_STATIC_EVENTS_H
 
-#include "statics.h"
+#include "statics_internal.h"
 
 /* The events of a static stage, all parts together. Loads scale in proportion, so no gravity (BRC_BAD_INPUT) and no
  * tables. At every event:

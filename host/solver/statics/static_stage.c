@@ -1,5 +1,5 @@
 /* A static stage: its increments, or its events. */
-#include "statics.h"
+#include "statics_internal.h"
 #include "../run/look.h"
 #include "static_events.h"
 #include <math.h>
@@ -10,9 +10,10 @@
 static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t increment)
 {
     const int64_t bytes = 3 * (int64_t)s->layout->n_rows * v->state_bytes;
-    const brc_unknowns state = {s->displacement, NULL};
-    if (increment == 1 || brc_solves_rotations(s->model)) return brc_buffer_copy(v->before, s->displacement, bytes);
-    BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, bytes)); /* u becomes 2 u - before */
+    const brc_unknowns state = {brc_displacement_of(s), NULL};
+    if (increment == 1 || brc_solves_rotations(s->model))
+        return brc_buffer_copy(v->before, brc_displacement_of(s), bytes);
+    BRC_TRY(brc_buffer_copy(v->z.move, brc_displacement_of(s), bytes)); /* u becomes 2 u - before */
     BRC_TRY(brc_unknowns_add(s, -1, (brc_unknowns){v->before, NULL}, state));
     BRC_TRY(brc_unknowns_add(s, 1, v->z, state));
     return brc_buffer_copy(v->before, v->z.move, bytes);
@@ -36,27 +37,29 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
         const double by = stage->to_failure / ratio;
         for (int32_t k = 0; k < n; ++k) {
             BRC_TRY(brc_statics_scale(part[k], &run[k].vectors, by));
-            part[k]->load_factor *= by;
+            brc_clock_set_load(part[k], brc_loads_time(part[k]) * by);
             BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
         }
         BRC_TRY(brc_statics_failure(n, part, &ratio));
         if (!(ratio > 0))
             return BRC_FAIL(context, BRC_PHYSICS_STOPPED, "stage '%s': the failure ratio is %g at %g times the load",
-                            stage->name, ratio, part[0]->load_factor);
+                            stage->name, ratio, brc_loads_time(part[0]));
     }
     for (int32_t k = 0; k < n; ++k)
-        part[k]->step += 1;
+        brc_clock_set_step(part[k], brc_simulation_step(part[k]) + 1);
     brc_log(context, BRC_LOG_INFO,
             "stage '%s': the load is scaled to %.6g, where the worst element is at %.6g of its limit", stage->name,
-            part[0]->load_factor, ratio);
-    BRC_TRY(brc_look_here(part[0], part[0]->step - 1));
+            brc_loads_time(part[0]), ratio);
+    BRC_TRY(brc_look_here(part[0], brc_simulation_step(part[0]) - 1));
     return brc_notify_sample(part[0]);
 }
 
 /* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the
  * next. */
-brc_status brc_statics_store_run(brc_simulation *s, brc_static_run *run, brc_state_store *store)
+brc_status brc_statics_store_stage(brc_simulation *s, brc_state_store *store)
 {
+    brc_static_run *run = s->statics->stage;
+    if (!run) return BRC_OK;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
     BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
     return brc_store_double(store, "static.reference", &run->reference);
@@ -68,14 +71,14 @@ static brc_status begin_runs(int32_t n, brc_simulation *const *part, brc_static_
     for (int32_t k = 0; k < n; ++k) {
         brc_simulation *s = part[k];
         if (!resumed) {
-            s->static_report = (brc_static_report){0};
-            BRC_TRY(brc_buffer_fill_zero(s->velocity));
+            s->statics->report = (brc_static_report){0};
+            BRC_TRY(brc_buffer_fill_zero(brc_velocity_of(s)));
         }
         BRC_TRY(brc_solve_vectors_create(s, &run[k].vectors));
-        s->static_run = &run[k];
+        s->statics->stage = &run[k];
         if (!resumed) continue;
         resumed->part = k;
-        BRC_TRY(brc_statics_store_run(s, &run[k], resumed));
+        BRC_TRY(brc_statics_store_stage(s, resumed));
     }
     return BRC_OK;
 }
@@ -85,34 +88,34 @@ static brc_status begin_runs(int32_t n, brc_simulation *const *part, brc_static_
 static brc_status tell_pause(brc_simulation *s, int32_t increments)
 {
     const brc_stage *stage = brc_current_stage(s);
-    const bool done = s->step >= increments + (stage->to_failure > 0);
-    const bool ended = s->note[s->stage].ended;
+    const bool done = brc_simulation_step(s) >= increments + (stage->to_failure > 0);
+    const bool ended = brc_stage_has_ended(s);
     BRC_TRY(brc_notify_pause(s, brc_simulation_is_to_stop(s) ? BRC_PAUSE_INTERRUPTED
                                 : ended                      ? BRC_PAUSE_ENDED
                                 : done                       ? BRC_PAUSE_DONE
                                                              : BRC_PAUSE_GOING));
     if (!brc_simulation_is_to_stop(s)) return BRC_OK;
     return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted after increment %lld of %d", stage->name,
-                    (long long)s->step, (int)increments);
+                    (long long)brc_simulation_step(s), (int)increments);
 }
 
 static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
 {
     const brc_stage *stage = brc_current_stage(part[0]);
     const int32_t increments = stage->increments > 0 ? stage->increments : 1;
-    const bool *ended = &part[0]->note[part[0]->stage].ended; /* by a look */
-    for (int32_t i = (int32_t)part[0]->step + 1; i <= increments && !*ended; ++i) {
+    for (int32_t i = (int32_t)brc_simulation_step(part[0]) + 1; i <= increments && !brc_stage_has_ended(part[0]); ++i) {
         for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
-            part[k]->load_factor = (double)i / increments;
+            brc_clock_set_load(part[k], (double)i / increments);
             BRC_TRY(predict(part[k], &run[k].vectors, i));
             BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
-            part[k]->step = i;
+            brc_clock_set_step(part[k], i);
         }
         BRC_TRY(brc_look_here(part[0], i - 1));
         BRC_TRY(brc_notify_sample(part[0]));
         BRC_TRY(tell_pause(part[0], increments));
     }
-    if (!(stage->to_failure > 0) || part[0]->step > increments || *ended) return BRC_OK;
+    if (!(stage->to_failure > 0) || brc_simulation_step(part[0]) > increments || brc_stage_has_ended(part[0]))
+        return BRC_OK;
     BRC_TRY(go_to_failure(n, part, run, progress));
     return tell_pause(part[0], increments);
 }
@@ -143,7 +146,7 @@ brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_sto
 cleanup:
     brc_progress_finish(&progress);
     for (int32_t k = 0; k < n; ++k)
-        part[k]->static_run = NULL;
+        part[k]->statics->stage = NULL;
     for (int32_t k = 0; run && k < n; ++k)
         brc_solve_vectors_free(&run[k].vectors);
     brc_memory_free(run);

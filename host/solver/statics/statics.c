@@ -2,7 +2,7 @@
  * device, inside a modified Newton iteration on the full law. dlsm-published has no symmetric operator: restarted GMRES
  * (gmres.c) on its linearisation, then the rotations that balance its torques. */
 #include "../../base/random.h"
-#include "statics.h"
+#include "statics_internal.h"
 #include "../effects/fracture/breaking.h"
 #include "../effects/loads/loads.h"
 #include "multigrid/multigrid.h"
@@ -33,15 +33,15 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));
-    if (finite) BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, place, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->torque, torque, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->force, force, 3));
+    if (finite) BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_displacement_of(s), place, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_torque_of(s), torque, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_force_of(s), force, 3));
     for (int64_t k = 0; k < 3 * n; ++k) {
         place[k] += s->domain->position[k];
         square += force[k] * force[k];
     }
     brc_balance(n, place, torque, force, &rigid);
-    if (s->static_report.iterations == 0 && rigid > rigid_most * sqrt(square)) {
+    if (s->statics->report.iterations == 0 && rigid > rigid_most * sqrt(square)) {
         status = BRC_FAIL(s->context, BRC_BAD_INPUT,
                           "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or "
                           "turn it as a whole; hold "
@@ -49,7 +49,7 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
                           brc_current_stage(s)->name, rigid / sqrt(square));
         goto cleanup;
     }
-    status = brc_state_to_rows(s, s->force, force, 3, 0);
+    status = brc_state_to_rows(s, brc_force_of(s), force, 3, 0);
 cleanup:
     brc_memory_free(place);
     brc_memory_free(torque);
@@ -59,18 +59,18 @@ cleanup:
 
 brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm)
 {
-    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
-                                                       .force = s->force,
-                                                       .orientation = s->orientation,
-                                                       .torque = s->torque,
+    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = brc_displacement_of(s),
+                                                       .force = brc_force_of(s),
+                                                       .orientation = brc_orientation_of(s),
+                                                       .torque = brc_torque_of(s),
                                                        .finite = finite,
-                                                       .t = s->load_factor}));
+                                                       .t = brc_loads_time(s)}));
     /* the residual of the free components; reactions of imposed elements were read just before */
-    BRC_TRY(brc_constrain(s, s->force, NULL));
+    BRC_TRY(brc_constrain(s, brc_force_of(s), NULL));
     BRC_TRY(balance_free_body(s, finite));
     double square;
-    BRC_TRY(
-        brc_statics_square(s, v, (brc_unknowns){s->force, brc_solves_rotations(s->model) ? s->torque : NULL}, &square));
+    BRC_TRY(brc_statics_square(
+        s, v, (brc_unknowns){brc_force_of(s), brc_solves_rotations(s->model) ? brc_torque_of(s) : NULL}, &square));
     *norm = sqrt(square);
     return isfinite(square) ? BRC_OK
                             : BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
@@ -88,7 +88,7 @@ static brc_status read_theta(brc_simulation *s, brc_solve_vectors *v)
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &theta, 3 * n, "rotations"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_orientation_of(s), q, 4));
     for (int64_t e = 0; e < n; ++e)
         for (int c = 0; c < 3; ++c)
             theta[3 * e + c] = 2 * q[4 * e + 1 + c] / q[4 * e];
@@ -116,10 +116,10 @@ int32_t brc_statics_most_iterations(const brc_simulation *s)
 /* The state takes the correction v->x. */
 static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
 {
-    BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){s->displacement, v->theta}));
+    BRC_TRY(brc_unknowns_add(s, 1, v->x, (brc_unknowns){brc_displacement_of(s), v->theta}));
     if (!brc_solves_rotations(s->model)) return BRC_OK;
-    if (finite) return brc_vector_turn(s, v->x.turn, s->orientation);
-    return brc_vector_small_rotation(s, v->theta, s->orientation);
+    if (finite) return brc_vector_turn(s, v->x.turn, brc_orientation_of(s));
+    return brc_vector_small_rotation(s, v->theta, brc_orientation_of(s));
 }
 
 /* How much of the residual a correction of the full law is solved to: to a tenth of what the law's change left of it
@@ -141,7 +141,7 @@ static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double no
     double *u = NULL, square;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, n, "rounding"));
-    BRC_TRY_OR(cleanup, brc_download(s, s->displacement, v->state_bytes, u, n));
+    BRC_TRY_OR(cleanup, brc_download(s, brc_displacement_of(s), v->state_bytes, u, n));
     for (int64_t i = 0; i < n; ++i) {
         double draws[4];
         brc_random_uniform4(0, BRC_RANDOM_POWER_ITERATION, (uint64_t)i, 2, draws);
@@ -159,6 +159,17 @@ static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double no
 cleanup:
     brc_memory_free(u);
     return status;
+}
+
+/* The rotations that balance the torques of the displacements just found, into the orientations. */
+static brc_status settle(brc_simulation *s, brc_solve_vectors *v, brc_progress *progress)
+{
+    const brc_settle_room room = {v->zero, v->orientation, v->z.move, v->r.move};
+    double square, left;
+    BRC_TRY(s->model->statics->torques(s, &room));
+    BRC_TRY(brc_statics_square(s, v, v->r, &square));
+    BRC_TRY(brc_conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
+    return brc_vector_small_rotation(s, v->x.move, brc_orientation_of(s));
 }
 
 static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
@@ -187,7 +198,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
                         stage->name, norm / *reference, tolerance);
                 break;
             }
-            s->static_report.residual = norm / *reference;
+            s->statics->report.residual = norm / *reference;
             if (!near)
                 return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                                 "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d "
@@ -195,14 +206,14 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
                                 "check that the loads balance or the supports hold every motion of the body, use more "
                                 "increments, or "
                                 "relax `tolerance`",
-                                stage->name, s->load_factor, norm / *reference, correction, tolerance);
+                                stage->name, brc_loads_time(s), norm / *reference, correction, tolerance);
             brc_preconditioner_give_up(s, v);
             last = norm = INFINITY;
         }
         const double lasting = norm / last; /* the part of the residual that the correction before this one left */
         earlier = last;
         last = norm;
-        BRC_TRY(brc_unknowns_copy((brc_unknowns){s->force, s->torque}, v->r));
+        BRC_TRY(brc_unknowns_copy((brc_unknowns){brc_force_of(s), brc_torque_of(s)}, v->r));
         /* the right side without what the supports leave free: a stiffness about the reference cannot take it, and of a
          * residual about the moved sample a part as large as its strain is left in it, on which conjugate gradients
          * would break down */
@@ -215,11 +226,11 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
                               : brc_gmres(s, v, target, most, progress, &left));
         BRC_TRY(correct(s, v, finite));
         BRC_TRY(brc_statics_residual(s, v, finite, &norm));
-        s->static_report.corrections += 1;
-        if (s->left_off) break;
+        s->statics->report.corrections += 1;
+        if (brc_simulation_left_off(s)) break;
     }
-    s->static_report.residual = *reference > 0 ? norm / *reference : 0;
-    return by->settle ? by->settle(s, v, progress) : BRC_OK;
+    s->statics->report.residual = *reference > 0 ? norm / *reference : 0;
+    return by->torques ? settle(s, v, progress) : BRC_OK;
 }
 
 brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double factor)
@@ -229,14 +240,15 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
     double *q = NULL;
     brc_status status = BRC_OK;
     if (factor == 0) { /* also of a state that is not finite */
-        BRC_TRY(brc_buffer_fill_zero(s->displacement));
-        return s->model->turns ? brc_vector_small_rotation(s, s->displacement, s->orientation) : BRC_OK;
+        BRC_TRY(brc_buffer_fill_zero(brc_displacement_of(s)));
+        return s->model->turns ? brc_vector_small_rotation(s, brc_displacement_of(s), brc_orientation_of(s)) : BRC_OK;
     }
-    BRC_TRY(brc_buffer_copy(v->z.move, s->displacement, 3 * (int64_t)s->layout->n_rows * v->state_bytes));
-    BRC_TRY(brc_unknowns_add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){s->displacement, NULL}));
+    BRC_TRY(brc_buffer_copy(v->z.move, brc_displacement_of(s), 3 * (int64_t)s->layout->n_rows * v->state_bytes));
+    BRC_TRY(
+        brc_unknowns_add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){brc_displacement_of(s), NULL}));
     if (!s->model->turns) return BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_orientation_of(s), q, 4));
     for (int64_t e = 0; e < n; ++e) {
         double square = 1;
         for (int c = 1; c < 4; ++c) {
@@ -247,7 +259,7 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
         for (int c = 0; finite && c < 4; ++c)
             q[4 * e + c] /= sqrt(square);
     }
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->orientation, q, 4,
+    BRC_TRY_OR(cleanup, brc_state_to_rows(s, brc_orientation_of(s), q, 4,
                                           0.5)); /* rows of padding: some unit quaternion, none of length 0 */
 cleanup:
     brc_memory_free(q);
@@ -262,7 +274,7 @@ static bool is_proportional(const brc_table *t)
 
 brc_status brc_statics_solve_at(brc_simulation *s, brc_static_run *run, brc_progress *progress)
 {
-    BRC_TRY(brc_loads_prescribe(s, s->load_factor));
+    BRC_TRY(brc_loads_prescribe(s, brc_loads_time(s)));
     if (brc_solves_rotations(s->model)) BRC_TRY(read_theta(s, &run->vectors));
     BRC_TRY(solve_increment(s, &run->vectors, &run->reference, progress));
     return brc_force_of_state(s, BRC_BOOK_WORK);

@@ -1,5 +1,5 @@
 /* Operations on vectors of unknowns of static solves. */
-#include "statics.h"
+#include "statics_internal.h"
 
 brc_status brc_unknowns_add(brc_simulation *s, double a, brc_unknowns x, brc_unknowns y)
 {

@@ -6,13 +6,9 @@
 
 typedef struct brc_simulation brc_simulation;
 
-/* One that a model does not use stays NULL. */
-typedef struct brc_vector_kernels {
-    brc_kernel *axpy, *xpay, *dot, *sum, *gather, *small_rotation, *turn_orientation, *precondition, *precondition6;
-} brc_vector_kernels;
-
-/* Their kernels, in s->kernel. */
+/* Their kernels, in s->vectors. */
 brc_status brc_vector_kernels_find(brc_simulation *s);
+void brc_vector_kernels_free(brc_simulation *s);
 /* Sum of count state numbers, and dot product, in fixed blocks. */
 brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
 brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out);

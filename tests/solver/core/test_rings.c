@@ -65,8 +65,9 @@ static void one_break(case_options o, int64_t steps, double share)
     double ratio;
     assert_done(&c, brc_simulation_broken(s, &before));
     assert_done(&c, brc_simulation_failure_ratio(s, &ratio));
-    double *f_old = rows(&c, s->force), *v_old = rows(&c, s->velocity), *w_old = s->torque ? rows(&c, s->spin) : NULL,
-           *t_old = s->torque ? rows(&c, s->torque) : NULL;
+    double *f_old = rows(&c, brc_force_of(s)), *v_old = rows(&c, brc_velocity_of(s)),
+           *w_old = brc_torque_of(s) ? rows(&c, brc_spin_of(s)) : NULL,
+           *t_old = brc_torque_of(s) ? rows(&c, brc_torque_of(s)) : NULL;
     brc_touching touch = {0};
     if (s->contact) assert_done(&c, brc_simulation_touching(s, &touch));
     if (s->contact) print_message("%lld pairs touch\n", (long long)touch.pairs);
@@ -79,10 +80,11 @@ static void one_break(case_options o, int64_t steps, double share)
                   (long long)(after - before), (int)list->n[0], (int)list->n[1], (int)list->n[2], (int)list->n[3],
                   (long long)c.domain->n_elements);
     assert_true(after > before && list->n[0] > 0 && list->n[1] > list->n[0]);
-    double *f = rows(&c, s->force), *v = rows(&c, s->velocity), *t = s->torque ? rows(&c, s->torque) : NULL,
-           *w = s->torque ? rows(&c, s->spin) : NULL;
+    double *f = rows(&c, brc_force_of(s)), *v = rows(&c, brc_velocity_of(s)),
+           *t = brc_torque_of(s) ? rows(&c, brc_torque_of(s)) : NULL,
+           *w = brc_torque_of(s) ? rows(&c, brc_spin_of(s)) : NULL;
     assert_done(&c, brc_force_of_state(s, BRC_BOOK_NOTHING)); /* of the whole body */
-    double *f_whole = rows(&c, s->force), *t_whole = s->torque ? rows(&c, s->torque) : NULL;
+    double *f_whole = rows(&c, brc_force_of(s)), *t_whole = brc_torque_of(s) ? rows(&c, brc_torque_of(s)) : NULL;
     assert_true(farthest(f, f_whole, n) < 1e-12);
     if (t) assert_true(farthest(t, t_whole, n) < 1e-12);
     for (int64_t e = 0; e < c.domain->n_elements; ++e)
@@ -93,7 +95,7 @@ static void one_break(case_options o, int64_t steps, double share)
     assert_true(farthest(v, v_old, n) < 1e-12);
     if (t) {
         double *inertia = calloc((size_t)(n / 3), sizeof *inertia);
-        assert_done(&c, brc_state_from_rows(s, s->inertia, inertia, 1));
+        assert_done(&c, brc_state_from_rows(s, brc_inertia_of(s), inertia, 1));
         for (int64_t i = 0; i < n; ++i)
             w_old[i] += half_kick * (t_old[i] - t_whole[i]) / inertia[i / 3];
         assert_true(farthest(w, w_old, n) < 1e-12);
@@ -168,9 +170,9 @@ static void nothing_piles_up(case_options o)
     run_steps(&c, 150);
     assert_done(&c, brc_simulation_broken(c.simulation, &broken));
     assert_true(broken > 50);
-    double *f = rows(&c, c.simulation->force);
+    double *f = rows(&c, brc_force_of(c.simulation));
     assert_done(&c, brc_force_of_state(c.simulation, BRC_BOOK_NOTHING));
-    double *whole = rows(&c, c.simulation->force);
+    double *whole = rows(&c, brc_force_of(c.simulation));
     assert_true(farthest(f, whole, 3 * c.domain->n_elements) < 1e-12);
     free(f), free(whole);
     close_case(&c);

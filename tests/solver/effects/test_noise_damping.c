@@ -36,9 +36,9 @@ static double dot(int64_t n, const double *a, const double *b)
 static void apply(bench_case *c, const double *v, double *drag, double *per_mass)
 {
     brc_simulation *s = c->simulation;
-    assert_done(c, brc_upload_state(s, s->velocity, v, length_of(c)));
+    assert_done(c, brc_upload_state(s, brc_velocity_of(s), v, length_of(c)));
     assert_done(c, brc_noise_damp(s));
-    double *force = rows_of(c, brc_noise_drag(s)), *after = rows_of(c, s->velocity);
+    double *force = rows_of(c, brc_noise_drag(s)), *after = rows_of(c, brc_velocity_of(s));
     for (int64_t k = 0; k < length_of(c); ++k) {
         if (drag) drag[k] = -force[k];
         if (per_mass) per_mass[k] = (v[k] - after[k]) / brc_noise_factor(s);
@@ -62,7 +62,7 @@ static void the_drag_is_symmetric_and_keeps_momentum(void **state)
     bench_case c;
     open_shaken(&c, (case_options){.stages = STAGE("5 %", RANDOM)});
     const int64_t n = length_of(&c);
-    double *v = rows_of(&c, c.simulation->velocity), *w = calloc((size_t)n, sizeof *w),
+    double *v = rows_of(&c, brc_velocity_of(c.simulation)), *w = calloc((size_t)n, sizeof *w),
            *sv = calloc((size_t)n, sizeof *sv), *sw = calloc((size_t)n, sizeof *sw);
     double sum[3] = {0}, scale = 0;
     for (int64_t k = 0; k < n; ++k)
@@ -91,9 +91,9 @@ static void linear_velocities_are_left_alone(void **state)
                 (case_options){.stages = STAGE("10 %", "    initial:\n      - velocity: {velocity: [1 mm/s, 2 mm/s, "
                                                        "0], gradient: {x: [1e-3 1/s, 2e-3 1/s, 0], "
                                                        "y: [-3e-3 1/s, 0, 1e-3 1/s], z: [0, 1e-3 1/s, 5e-4 1/s]}}\n")});
-    double *before = rows_of(&c, c.simulation->velocity);
+    double *before = rows_of(&c, brc_velocity_of(c.simulation));
     assert_done(&c, brc_noise_damp(c.simulation));
-    double *after = rows_of(&c, c.simulation->velocity);
+    double *after = rows_of(&c, brc_velocity_of(c.simulation));
     for (int64_t k = 0; k < length_of(&c); ++k)
         assert_true(fabs(after[k] - before[k]) <
                     1e-13 * 5e-3); /* velocities up to 5 mm/s; the factor times S is below 2 M */
@@ -108,7 +108,7 @@ static double frequency_ratio(const char *materials, const char *fill)
     bench_case c;
     open_shaken(&c, (case_options){.materials = materials, .fill = fill, .stages = STAGE("1 %", RANDOM)});
     const int64_t n = length_of(&c);
-    double *v = rows_of(&c, c.simulation->velocity), *next = calloc((size_t)n, sizeof *next), square = 0;
+    double *v = rows_of(&c, brc_velocity_of(c.simulation)), *next = calloc((size_t)n, sizeof *next), square = 0;
     for (int i = 0; i < 40; ++i) {
         apply(&c, v, NULL, next);
         square = sqrt(dot(n, next, next) / dot(n, v, v));
@@ -166,7 +166,7 @@ static double left_of(const char *stages, bool wave, int64_t n_steps)
         double *v = calloc((size_t)length_of(&c), sizeof *v);
         for (int64_t e = 0; e < c.domain->n_elements; ++e)
             v[3 * c.simulation->layout->row_of_element[e]] = 1e-3 * cos(acos(-1) * c.domain->position[3 * e] / 4);
-        assert_done(&c, brc_upload_state(c.simulation, c.simulation->velocity, v, length_of(&c)));
+        assert_done(&c, brc_upload_state(c.simulation, brc_velocity_of(c.simulation), v, length_of(&c)));
         free(v);
     }
     assert_done(&c, brc_simulation_ledger(c.simulation, &before));

@@ -1,5 +1,5 @@
 /* Multigrid as preconditioner of static solves. */
-#include "../../../host/solver/statics/multigrid/multigrid_internal.h"
+#include "../../../host/solver/statics/multigrid/multigrid.h"
 #include "../models/cbm/beams_case.h"
 #include "../../../host/base/log.h"
 #include <math.h>

@@ -12,7 +12,7 @@ static const double sphere_depth = 0.1; /* CONTACT_DEPTH of contact_law.h */
 /* In static stages and modes surfaces know nothing of each other. */
 static bool sleeps(const brc_simulation *s)
 {
-    return s->stage >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
+    return brc_simulation_stage(s) >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
 }
 
 static brc_status make_passes(brc_simulation *s)
@@ -136,9 +136,9 @@ static brc_status tell_of_overlap(brc_simulation *s, const brc_ledger *ledger)
 brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger)
 {
     static const double little = 1e-6; /* of the elastic energy: what a thousandth of its strains can press together */
-    if (!s->contact || s->stage < 0 || sleeps(s)) return BRC_OK;
-    if (s->stage == 0) return tell_of_overlap(s, ledger);
-    const brc_stage *before = s->scene->stages + s->stage - 1;
+    if (!s->contact || brc_simulation_stage(s) < 0 || sleeps(s)) return BRC_OK;
+    if (brc_simulation_stage(s) == 0) return tell_of_overlap(s, ledger);
+    const brc_stage *before = s->scene->stages + brc_simulation_stage(s) - 1;
     if (before->solver == BRC_SOLVER_DYNAMIC || !(ledger->contact > little * ledger->elastic)) return BRC_OK;
     return BRC_FAIL(s->context, BRC_BAD_INPUT,
                     "stage '%s': surfaces overlap as it begins and hold %.3g J, beside %.3g J of elastic energy: stage "
@@ -170,7 +170,7 @@ brc_status brc_contact_follow(brc_simulation *s)
 
 bool brc_contact_acts(const brc_simulation *s, const brc_force_request *r)
 {
-    return s->contact && !r->homogeneous && r->displacement == s->displacement && s->contact->now.n_pairs > 0;
+    return s->contact && !r->homogeneous && r->displacement == brc_displacement_of(s) && s->contact->now.n_pairs > 0;
 }
 
 /* No strikers: a buffer that no kernel touches. */
@@ -221,7 +221,7 @@ static bool all_pairs(const brc_force_request *r)
 /* The step that the evaluation ends; 0: the state is evaluated again. */
 static double step_of(const brc_simulation *s, const brc_force_request *r)
 {
-    return r->book == BRC_BOOK_WORK ? s->time_step.value : 0;
+    return r->book == BRC_BOOK_WORK ? brc_simulation_time_step(s).value : 0;
 }
 
 brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
@@ -255,7 +255,7 @@ static brc_status beams_broke(brc_simulation *s, bool *out)
     *out = false;
     if (brc_ahead_is_on(s)) return BRC_OK;
     BRC_TRY(BRC_RUN(s->contact->pass.marked, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))}));
-    BRC_TRY(brc_ahead_count(s, s->kinetic, s->n_groups, &groups));
+    BRC_TRY(brc_ahead_count(s, brc_kinetic_of(s), s->n_groups, &groups));
     *out = groups > 0;
     return BRC_OK;
 }
@@ -306,12 +306,12 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
     BRC_TRY(brc_contact_stored(s, &before));
     if (strikers && half_kick > 0)
         BRC_TRY(brc_strikers_advance(s, half_kick, 0, 0, false)); /* the step closes with the load of before ... */
-    if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, s->force, s->torque));
+    if (c->now.n_pairs > 0) BRC_TRY(gather_turning(s, -1, half_kick, 0, brc_force_of(s), brc_torque_of(s)));
     BRC_TRY(list_breaks(s));
     BRC_TRY(brc_contact_settle(s));
     if (c->now.n_pairs > 0) {
         BRC_TRY(brc_contact_pairs(s, 0, false, true));
-        BRC_TRY(gather_turning(s, 1, half_kick, 0, s->force, s->torque));
+        BRC_TRY(gather_turning(s, 1, half_kick, 0, brc_force_of(s), brc_torque_of(s)));
         BRC_TRY(load_strikers(s));
     }
     if (strikers) BRC_TRY(brc_strikers_book(s, BRC_BOOK_START));

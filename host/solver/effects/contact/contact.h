@@ -6,7 +6,7 @@
 #ifndef BRC_SOLVER_CONTACT_H
 #define BRC_SOLVER_CONTACT_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 
 typedef struct brc_contact_state brc_contact_state;
 

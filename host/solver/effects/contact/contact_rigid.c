@@ -81,7 +81,7 @@ brc_status brc_contact_detach(brc_simulation *s)
     const int32_t n = s->layout->n_rows;
     if (!c->detaches) return BRC_OK;
     BRC_TRY(brc_pass_run(c->pass.detach, n));
-    BRC_TRY(brc_vector_sum(s, s->kinetic, n, &c->n_rigid));
+    BRC_TRY(brc_vector_sum(s, brc_kinetic_of(s), n, &c->n_rigid));
     return brc_contact_pose(s);
 }
 
@@ -124,5 +124,5 @@ brc_status brc_contact_spin_energy(brc_simulation *s, double *out)
     *out = 0;
     if (!(c->n_rigid > 0)) return BRC_OK;
     BRC_TRY(brc_pass_run(c->pass.spin_energy, n));
-    return brc_vector_sum(s, s->kinetic, n, out);
+    return brc_vector_sum(s, brc_kinetic_of(s), n, out);
 }

@@ -113,7 +113,7 @@ static brc_status take_survey(brc_simulation *s, survey *out)
 static int64_t judge(const brc_simulation *s, const survey *now, double pushed, bool *due, bool *past)
 {
     const brc_contact_state *c = s->contact;
-    const double dt = s->time_step.value;
+    const double dt = brc_simulation_time_step(s).value;
     /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and
      * of the way to the next piece of a striker. */
     const double left = 0.5 * c->skin - now->element[0], v = 2 * now->element[1] * dt,
@@ -207,7 +207,8 @@ static brc_status choose_skin(brc_simulation *s)
     c->skin = s->scene->contact.skin;
     if (c->skin > 0) return BRC_OK;
     BRC_TRY(take_survey(s, &now));
-    c->skin = fmin(fmax(8 * MOST_QUIET * now.element[1] * s->time_step.value, thinnest * c->size), thickest * c->size);
+    c->skin = fmin(fmax(8 * MOST_QUIET * now.element[1] * brc_simulation_time_step(s).value, thinnest * c->size),
+                   thickest * c->size);
     return BRC_OK;
 }
 
@@ -236,11 +237,11 @@ static brc_status make_room(brc_simulation *s, int64_t m)
     brc_contact_state *c = s->contact;
     const int64_t buckets = brc_contact_buckets(m);
     if (!c->first || buckets > s->wants.bucket_room) {
-        s->wants.bucket_room = buckets;
+        brc_want_exposed(s, s->wants.exposed_room, buckets);
         BRC_TRY(brc_fields_create(s->device, &brc_contact_bucket_fields, &s->wants, c));
     }
     if (c->key[0] && m <= s->wants.exposed_room) return BRC_OK;
-    s->wants.exposed_room = brc_contact_exposed_room(&s->wants, m);
+    brc_want_exposed(s, brc_contact_exposed_room(&s->wants, m), s->wants.bucket_room);
     return brc_fields_create(s->device, &brc_contact_grid_fields, &s->wants, c);
 }
 

@@ -111,8 +111,7 @@ static brc_status find_exposed(brc_simulation *s, int32_t *exposed)
     int64_t n_exposed = 0;
     for (int32_t r = 0; r < s->layout->n_rows; ++r)
         n_exposed += exposed[r];
-    s->wants.exposed_room = brc_contact_exposed_room(&s->wants, n_exposed);
-    s->wants.bucket_room = brc_contact_buckets(n_exposed);
+    brc_want_exposed(s, brc_contact_exposed_room(&s->wants, n_exposed), brc_contact_buckets(n_exposed));
     return brc_upload_int(s->contact->exposed, exposed, s->layout->n_rows);
 }
 

@@ -95,9 +95,9 @@ static brc_status walk_arrays(brc_simulation *s, brc_state_store *store)
     brc_contact_state *c = s->contact;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_contact_fields, .owner = c, .n = c->n_pieces}));
     if (!c->affine) return BRC_OK;
-    if (store->field) return store->field(store, s->gradient);
+    if (store->field) return store->field(store, brc_gradient_of(s));
     return brc_store_entry(s, store,
-                           &(brc_state_entry){"contact.gradient", s->gradient, BRC_ROWS, BRC_OF_COEFF, 9, NULL});
+                           &(brc_state_entry){"contact.gradient", brc_gradient_of(s), BRC_ROWS, BRC_OF_COEFF, 9, NULL});
 }
 
 brc_status brc_contact_store_stretch(brc_simulation *s, brc_state_store *store)

@@ -151,7 +151,7 @@ static brc_status ahead_begin(brc_simulation *s)
     struct brc_ahead *a;
     BRC_TRY(ahead_made(s, &a));
     if (is_of_beams(s)) {
-        if (a->counted_at != s->total_steps || a->counted_in != s->stage)
+        if (a->counted_at != brc_simulation_total_steps(s) || a->counted_in != brc_simulation_stage(s))
             BRC_TRY(brc_vector_sum(s, s->fracture->broken, s->layout->n_rows, &a->broken));
         a->broke = a->broken > 0;
     } else if (s->fracture) {
@@ -160,8 +160,8 @@ static brc_status ahead_begin(brc_simulation *s)
     }
     BRC_TRY(walk(s, false));
     brc_effects_begin_looks(s);
-    a->first = s->step;
-    a->open = s->open;
+    a->first = brc_simulation_step(s);
+    a->open = brc_half_kick_is_missing(s);
     a->on = true;
     return BRC_OK;
 }
@@ -183,7 +183,7 @@ static brc_status ahead_end(brc_simulation *s, bool *stands)
 {
     struct brc_ahead *a = s->ahead;
     const brc_cell_breaks *c = s->fracture ? s->fracture->cells : NULL;
-    const int64_t last = s->step;
+    const int64_t last = brc_simulation_step(s);
     double n;
     bool seen = true;
     a->on = false;
@@ -192,12 +192,12 @@ static brc_status ahead_end(brc_simulation *s, bool *stands)
     *stands = !(n > 0) && seen;
     if (*stands) {
         if (!c) a->calm += last - a->first;
-        a->counted_at = s->total_steps;
-        a->counted_in = s->stage;
+        a->counted_at = brc_simulation_total_steps(s);
+        a->counted_in = brc_simulation_stage(s);
         return BRC_OK;
     }
     BRC_TRY(walk(s, true));
-    s->open = a->open;
+    brc_half_kick_missing(s, a->open);
     a->counted_at = -1;
     if (n > 0) {
         a->calm = 0;
@@ -205,8 +205,8 @@ static brc_status ahead_end(brc_simulation *s, bool *stands)
     }
     if (c) BRC_TRY(brc_buffer_fill_zero(c->mark));
     if (c) BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
-    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: %s in them", (long long)s->step + 1,
-            (long long)last, n > 0 ? "bonds break" : "surfaces come near");
+    brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: %s in them",
+            (long long)brc_simulation_step(s) + 1, (long long)last, n > 0 ? "bonds break" : "surfaces come near");
     return BRC_OK;
 }
 

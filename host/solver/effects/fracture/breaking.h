@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_BREAKING_H
 #define BRC_SOLVER_BREAKING_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 #include "cell_breaks.h"
 #include "fracture.h"
 

@@ -54,7 +54,7 @@ static brc_status read_entries(brc_simulation *s, entries *e)
 
 int64_t brc_fracture_moment(const brc_simulation *s)
 {
-    return s->total_steps + s->fracture->n_loads;
+    return brc_simulation_total_steps(s) + s->fracture->n_loads;
 }
 
 brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
@@ -86,8 +86,8 @@ brc_status brc_fracture_begin_stage(brc_simulation *s)
     BRC_TRY(refuse_open(s));
     BRC_TRY(
         brc_memory_resize(s->context, (void **)&f->spans, f->n_spans + 1, sizeof *f->spans, "stages with fracture"));
-    f->spans[f->n_spans++] = (brc_break_span){brc_fracture_moment(s), f->n_loads, s->total_time_before,
-                                              dynamic ? s->time_step.value : 0, s->stage};
+    f->spans[f->n_spans++] = (brc_break_span){brc_fracture_moment(s), f->n_loads, brc_simulation_total_time(s),
+                                              dynamic ? brc_simulation_time_step(s).value : 0, brc_simulation_stage(s)};
     return BRC_OK;
 }
 
@@ -95,7 +95,7 @@ brc_status brc_fracture_begin_event(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
     BRC_TRY(brc_memory_resize(s->context, (void **)&f->load, f->n_loads + 1, sizeof *f->load, "events"));
-    f->load[f->n_loads++] = s->load_factor;
+    f->load[f->n_loads++] = brc_loads_time(s);
     return BRC_OK;
 }
 
@@ -211,11 +211,6 @@ cleanup:
     }
     *out = whole;
     return status;
-}
-
-brc_regime brc_simulation_regime(const brc_simulation *s)
-{
-    return s->regime;
 }
 
 brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)

@@ -216,18 +216,7 @@ static brc_status break_marked(brc_simulation *s, double *energy)
     return BRC_OK;
 }
 
-/* Velocities gain kick times force over mass, spins of elements whose bonds turn with them likewise ... */
-static brc_status kick(brc_simulation *s, double by)
-{
-    const int32_t n = s->layout->n_rows;
-    if (by == 0) return BRC_OK;
-    BRC_TRY(BRC_RUN(s->pass.advance, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)}));
-    if (s->model->turns)
-        BRC_TRY(BRC_RUN(s->pass.advance_rotation, n, {"kick", BRC_STATE(by)}, {"drift", BRC_STATE(0)},
-                        {"extra", BRC_STATE(0)}));
-    return BRC_OK;
-}
-/* ... and those of rigid cells and of strikers, which are in no ring. */
+/* Velocities of rigid cells and of strikers, which are in no ring. */
 static brc_status kick_others(brc_simulation *s, double by)
 {
     if (by == 0) return BRC_OK;
@@ -288,7 +277,7 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     rings->half_kick = half_kick;
     BRC_TRY(outside_energy(s, &outside_before));
     BRC_TRY(kick_others(s, half_kick));
-    if (rings->whole_force) BRC_TRY(kick(s, half_kick));
+    if (rings->whole_force) BRC_TRY(brc_elements_kick(s, half_kick));
     if (rings->whole_force) BRC_TRY(brc_rings_keep_force(s, rings));
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
@@ -297,7 +286,7 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     BRC_TRY(brc_force_around_breaks(s, rings));
     if (o->change) BRC_TRY(o->change(s, rings->whole_force ? 0 : half_kick));
     if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
-    if (rings->whole_force) BRC_TRY(kick(s, -half_kick));
+    if (rings->whole_force) BRC_TRY(brc_elements_kick(s, -half_kick));
     BRC_TRY(kick_others(s, -half_kick));
     BRC_TRY(s->model->breaking->energy_around(s, rings, false, &after));
     BRC_TRY(outside_energy(s, &outside));

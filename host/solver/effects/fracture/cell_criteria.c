@@ -11,9 +11,7 @@ brc_status brc_cell_criteria_create(brc_simulation *s)
     BRC_TRY(s->model->breaking->branches(s, &branch));
     BRC_TRY(brc_fracture_create_elements(s, branch));
     const brc_scope run = brc_scope_of_run(s), criterion = brc_scope_of_criterion(s, &run);
-    static const brc_value_row stresses[] = {
-        {"stress", BRC_VALUE_BUFFER, BRC_FIELD_AT(brc_simulation, stress)}}; /* not those of the criterion */
-    const brc_scope state = {.owner = "stresses of dlsm", .base = s, BRC_VALUES(stresses), .outer = &criterion};
+    const brc_scope state = brc_scope_of_stresses(s, &criterion); /* not those of the criterion */
     brc_cell_scopes scopes;
     const brc_scope *cells = brc_cell_scopes_make(s, &criterion, &scopes);
     BRC_TRY(BRC_PASSES(s, &state, BRC_PASS(&c->record, s->model->breaking->record, NULL),

@@ -3,7 +3,7 @@
 #ifndef BRC_SOLVER_CRACK_RANGE_H
 #define BRC_SOLVER_CRACK_RANGE_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 #include "strengths.h"
 
 /* Lengths E G_c / sigma_f^2 of the bonds that soften over the size of their elements, ascending; bonds that never break

@@ -5,6 +5,8 @@
 #include "breaking.h"
 #include "fracture.h"
 
+typedef struct brc_breaking brc_breaking;
+
 /* A stage, for the times of its steps. */
 typedef struct brc_break_span {
     int64_t first_step;           /* brc_fracture_moment when it began */

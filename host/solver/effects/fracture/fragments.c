@@ -1,6 +1,6 @@
 /* Momenta of fragments from the state of their elements. */
 #include "fragments.h"
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 #include "../../core/sym3.h"
 
 /* Directions with less than this share of the largest moment of inertia count as without: a row of points about
@@ -21,7 +21,7 @@ static brc_status read_elements(brc_simulation *s, elements *e)
     BRC_TRY(BRC_ALLOCATE(s->context, &e->mass, n, "fragments"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->place, 3 * n, "fragments"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->velocity, 3 * n, "fragments"));
-    BRC_TRY(brc_state_from_rows(s, s->mass, e->mass, 1));
+    BRC_TRY(brc_state_from_rows(s, brc_mass_of(s), e->mass, 1));
     BRC_TRY(brc_simulation_displacement(s, e->place));
     for (int64_t k = 0; k < 3 * n; ++k)
         e->place[k] += s->domain->position[k];
@@ -30,7 +30,7 @@ static brc_status read_elements(brc_simulation *s, elements *e)
     BRC_TRY(BRC_ALLOCATE(s->context, &e->inertia, n, "fragments"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->orientation, 4 * n, "fragments"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->spin, 3 * n, "fragments"));
-    BRC_TRY(brc_state_from_rows(s, s->inertia, e->inertia, 1));
+    BRC_TRY(brc_state_from_rows(s, brc_inertia_of(s), e->inertia, 1));
     return brc_simulation_orientation(s, e->orientation, e->spin);
 }
 

@@ -66,7 +66,7 @@ static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "neighbours"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
+    BRC_TRY_OR(cleanup, brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
     for (int64_t i = 0; i < half_edges->n; ++i)
         broken[half_edges->id[i]] = 1;
     for (int32_t block = 0; block < layout->n_slices; ++block)
@@ -74,7 +74,7 @@ static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
              k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
             if (layout->half_edge[k] >= 0 && broken[layout->half_edge[k]])
                 neighbour[k] = block * layout->slice + (int32_t)(k % layout->slice);
-    BRC_TRY_OR(cleanup, brc_buffer_write(s->neighbour, 0, neighbour, 4 * n));
+    BRC_TRY_OR(cleanup, brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n));
 cleanup:
     brc_memory_free(neighbour);
     brc_memory_free(broken);
@@ -123,7 +123,6 @@ static brc_status walk_tables(brc_simulation *s, brc_state_store *store, const b
         const void *owner;
         bool there;
     } walked[] = {{&brc_break_fields, f, true},
-                  {&brc_geometry_fields, s, true},
                   {&brc_criterion_fields, f, f->record != NULL},
                   {&brc_cell_break_fields, f->cells, f->cells != NULL}};
     for (size_t k = 0; k < sizeof walked / sizeof *walked; ++k)
@@ -132,7 +131,7 @@ static brc_status walk_tables(brc_simulation *s, brc_state_store *store, const b
                 s, store,
                 &(brc_kept_fields){
                     .table = walked[k].table, .owner = walked[k].owner, .bonds = bonds, .elements = elements}));
-    return BRC_OK;
+    return brc_geometry_store(s, store, bonds, elements);
 }
 
 static brc_status walk_arrays(brc_simulation *s, brc_state_store *store, const brc_chosen *bonds)
@@ -149,7 +148,7 @@ cleanup:
 brc_status brc_fracture_store_stretch(brc_simulation *s, brc_state_store *store)
 {
     BRC_TRY(walk_tables(s, store, NULL, NULL));
-    return store->field(store, s->neighbour);
+    return store->field(store, brc_neighbour_of(s));
 }
 
 brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)

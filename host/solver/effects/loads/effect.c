@@ -44,10 +44,10 @@ static brc_status leave(brc_simulation *s)
 {
     double work, *left;
     BRC_TRY(brc_loads_work(s, &work));
-    s->work_before += work;
+    s->loads->work_before += work;
     BRC_TRY(brc_held_faces_places(s, &left));
     brc_loads_free(s->loads);
-    s->face_loads = false;
+    brc_set_face_loads(s, false);
     s->loads->held.left = left;
     return BRC_OK;
 }
@@ -98,8 +98,8 @@ static brc_status book(brc_simulation *s, const brc_occasion *now)
 static brc_status work(brc_simulation *s, const brc_occasion *now)
 {
     double done = 0;
-    if (s->stage >= 0) BRC_TRY(brc_loads_work(s, &done));
-    now->ledger->work += done + s->work_before;
+    if (brc_simulation_stage(s) >= 0) BRC_TRY(brc_loads_work(s, &done));
+    now->ledger->work += done + s->loads->work_before;
     return BRC_OK;
 }
 

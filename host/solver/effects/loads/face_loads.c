@@ -3,7 +3,7 @@
 
 bool brc_loads_on_faces(const brc_simulation *s)
 {
-    return s->face_loads;
+    return s->loads->on_faces;
 }
 
 int32_t brc_loads_n_held_faces(const brc_simulation *s)

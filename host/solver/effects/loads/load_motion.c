@@ -22,7 +22,7 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
 
 brc_status brc_imposed_book(brc_simulation *s, const brc_force_request *r)
 {
-    const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
+    const brc_stage *stage = brc_simulation_stage(s) >= 0 ? brc_current_stage(s) : NULL;
     for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
         brc_imposed_load *m = s->loads->imposed + i;
         const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);

@@ -220,7 +220,8 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         status = create_still(s, stage, taken, out->imposed + out->n_imposed, &any);
         out->n_imposed += any;
     }
-    s->face_loads = out->held.n_faces > 0 || out->n_tractions > 0;
+    out->on_faces = out->held.n_faces > 0 || out->n_tractions > 0;
+    brc_set_face_loads(s, out->on_faces);
 cleanup:
     brc_memory_free(taken);
     brc_memory_free(turned);
@@ -246,5 +247,5 @@ void brc_loads_free(brc_loads *loads)
     brc_memory_free(loads->tractions);
     brc_memory_free(loads->imposed);
     brc_element_loads_free(loads);
-    *loads = (brc_loads){.pass = loads->pass};
+    *loads = (brc_loads){.pass = loads->pass, .work_before = loads->work_before};
 }

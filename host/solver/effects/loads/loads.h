@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_LOADS_H
 #define BRC_SOLVER_LOADS_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 
 typedef struct brc_loads brc_loads;
 

@@ -65,6 +65,8 @@ struct brc_loads {
     brc_turn_load *turns;
     brc_traction_load *tractions;
     brc_imposed_load *imposed;
+    bool on_faces;      /* some face is held or bears a traction */
+    double work_before; /* of earlier stages [J] */
 };
 
 /* ---- loads.c: one stage's loads ---- */

@@ -61,7 +61,7 @@ static brc_status element_reactions(brc_simulation *s, const brc_set *set, react
         member[set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]]] = true;
     if (sum->moments) {
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "reactions"));
-        BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, u, 3));
+        BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_displacement_of(s), u, 3));
     }
     for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
         const brc_imposed_load *m = s->loads->imposed + i;

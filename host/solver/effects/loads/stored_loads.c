@@ -81,6 +81,7 @@ static brc_status walk_turn(brc_simulation *s, brc_state_store *store, int32_t i
 
 brc_status brc_loads_store(brc_simulation *s, brc_state_store *store)
 {
+    BRC_TRY(brc_store_double(store, "work_before", &s->loads->work_before));
     BRC_TRY(walk_held(s, store));
     for (int32_t i = 0; i < s->loads->n_tractions; ++i)
         BRC_TRY(walk_traction(s, store, i));

@@ -3,7 +3,7 @@
 #define BRC_SOLVER_STRIKER_CONTACT_H
 
 #include "../../../../preprocess/shapes/convex.h"
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 #include "strikers.h"
 
 /* What a piece of a striker is for contact. */

@@ -149,7 +149,7 @@ brc_status brc_strikers_create(brc_simulation *s)
         BRC_PASS(&t->place, "striker_place", "which ux uy uz qw qx qy qz vx vy vz wx wy wz mx my mz tx ty tz"),
         BRC_PASS(&t->push_on, "striker_push", "which fx fy fz"), BRC_PASS(&t->book, "striker_book", "book numerical")};
     BRC_TRY(BRC_PASSES_MAKE(s, &bodies, wanted));
-    s->wants.pieces = &t->convex;
+    brc_want_pieces(s, &t->convex);
     BRC_TRY(brc_strikers_check(s));
     return upload_start(s);
 }
@@ -162,7 +162,7 @@ void brc_strikers_free(brc_simulation *s)
     for (int32_t i = 0; t->body && i < t->n; ++i)
         brc_striker_body_free(&t->body[i]);
     brc_convex_free(&t->convex);
-    s->wants.pieces = NULL;
+    brc_want_pieces(s, NULL);
     brc_memory_free(t->piece_striker);
     brc_memory_free(t->piece_kind);
     brc_memory_free(t->piece_radius);
@@ -234,8 +234,8 @@ static brc_status push(brc_simulation *s, int32_t i, double now)
 {
     const brc_strikers *t = s->strikers;
     const brc_striker *striker = asked(s, i);
-    const double factor = brc_table_value(&striker->table, now), dt = s->time_step.value;
-    const bool verlet = s->step > 0 && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC &&
+    const double factor = brc_table_value(&striker->table, now), dt = brc_simulation_time_step(s).value;
+    const bool verlet = brc_simulation_step(s) > 0 && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC &&
                         brc_current_stage(s)->integrator != BRC_TCHAMWA_WIELGOSZ;
     double *last = t->push_now + N_PUSH * (int64_t)i, f[3];
     for (int c = 0; c < 3; ++c)
@@ -288,7 +288,7 @@ brc_status brc_strikers_prescribe(brc_simulation *s)
 brc_status brc_strikers_book(brc_simulation *s, brc_booking book)
 {
     const brc_strikers *t = s->strikers;
-    const brc_stage *stage = s->stage >= 0 ? brc_current_stage(s) : NULL;
+    const brc_stage *stage = brc_simulation_stage(s) >= 0 ? brc_current_stage(s) : NULL;
     const bool numerical = stage && stage->solver == BRC_SOLVER_DYNAMIC && stage->integrator == BRC_TCHAMWA_WIELGOSZ;
     return BRC_RUN(t->book, t->n, {"book", BRC_INT(book)}, {"numerical", BRC_INT(numerical ? 1 : 0)});
 }

@@ -5,6 +5,8 @@
 #include "../../../../preprocess/shapes/convex.h"
 #include "striker_contact.h"
 
+typedef struct brc_strikers brc_strikers;
+
 /* Everything that exists only in scenes with strikers. What the buffers of numbers hold is told in
  * strikers.cl. */
 struct brc_strikers {

@@ -1,5 +1,5 @@
 #include "beam_closure.h"
-#include "cbm.h"
+#include "cbm_internal.h"
 #include "../../effects/fracture/ahead.h"
 #include "beam_softening.h"
 
@@ -38,7 +38,8 @@ static beam_closure *closure_of(const brc_simulation *s)
 /* A static stage solves a body whose broken bonds bear nothing (docs/notebook/fracture.md). */
 static bool bears_now(const brc_simulation *s)
 {
-    return brc_scene_shuts(s->scene) && s->stage >= 0 && brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
+    return brc_scene_shuts(s->scene) && brc_simulation_stage(s) >= 0 &&
+           brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
 }
 static bool acts(const brc_simulation *s)
 {

@@ -1,5 +1,5 @@
 #include "beam_softening.h"
-#include "cbm.h"
+#include "cbm_internal.h"
 #include "../../effects/fracture/bond_area.h"
 #include "../../effects/fracture/crack_range.h"
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Model cbm on the host: beams of each material and body, their diagonal blocks, and the time step that follows from
  * them. */
 #include "../../laws/beam_law.h"
-#include "cbm.h"
+#include "cbm_internal.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "../../effects/fracture/breaking.h"
@@ -91,11 +91,12 @@ brc_status brc_beams_create(brc_simulation *s)
                         "to each body");
     BRC_TRY(refuse_isolated(s));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &radii, scene->n_bodies, "radii of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->beam, (int64_t)scene->n_bodies * scene->n_materials, "beams"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->beam,
+                                     (int64_t)scene->n_bodies * scene->n_materials, "beams"));
     BRC_TRY_OR(cleanup, find_radii(s, radii));
     for (int32_t b = 0; b < scene->n_bodies; ++b)
         for (int32_t m = 0; m < scene->n_materials; ++m) {
-            brc_beam *beam = &s->beam[b * scene->n_materials + m];
+            brc_beam *beam = &brc_cbm_own_of(s)->beam[b * scene->n_materials + m];
             double ratio, young;
             if (!brc_body_uses(&scene->bodies[b], m) || radii[b].n == 0)
                 continue; /* a material that the body lacks may be out of reach of its law */
@@ -114,7 +115,7 @@ cleanup:
 const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e)
 {
     const int32_t b = s->domain->body[e] < s->scene->n_bodies ? s->domain->body[e] : 0;
-    return &s->beam[b * s->scene->n_materials + s->material_of_element[e]];
+    return &brc_cbm_own_of(s)->beam[b * s->scene->n_materials + s->material_of_element[e]];
 }
 
 brc_status brc_beams_upload(brc_simulation *s)
@@ -130,7 +131,7 @@ brc_status brc_beams_upload(brc_simulation *s)
         rows[3 * (int64_t)r + 1] = beam->bend;
         rows[3 * (int64_t)r + 2] = beam->twist;
     }
-    if (status == BRC_OK) status = brc_upload_coeff(s, s->beam_of, rows, 3 * (int64_t)layout->n_rows);
+    if (status == BRC_OK) status = brc_upload_coeff(s, brc_beam_array_of(s), rows, 3 * (int64_t)layout->n_rows);
     brc_memory_free(rows);
     return status;
 }

@@ -5,7 +5,7 @@
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/breaking.h"
 #include "../../laws/strength_law.h"
-#include "cbm.h"
+#include "cbm_internal.h"
 #include <math.h>
 
 /* k of one body's beams; and nominal, what the test that the material's strength is from reads over the strength in
@@ -74,7 +74,7 @@ brc_status brc_cbm_limits(brc_simulation *s, const brc_limit_case *of, double li
 brc_status brc_cbm_create_fracture(brc_simulation *s)
 {
     brc_cbm_own *own = brc_cbm_own_of(s);
-    BRC_TRY(brc_fracture_create_elements(s, s->offset));
+    BRC_TRY(brc_fracture_create_elements(s, brc_offset_of(s)));
     const brc_scope run = brc_scope_of_run(s), request = brc_scope_of_request(&run),
                     breaks = brc_scope_of_breaks(s, &run), criterion = brc_scope_of_criterion(s, &breaks),
                     evaluation = brc_scope_of_criterion(s, &request);
@@ -99,7 +99,7 @@ brc_status brc_cbm_break_bonds(brc_simulation *s, double half_kick)
                     {"step", BRC_INT(moment)}, {"half_kick", BRC_STATE(half_kick)}));
     BRC_TRY(brc_beam_softening_end(s, moment));
     BRC_TRY(brc_beam_closure_begin(s, moment, half_kick));
-    BRC_TRY(brc_constrain(s, NULL, s->torque)); /* prescribed rotations balance theirs */
+    BRC_TRY(brc_constrain(s, NULL, brc_torque_of(s))); /* prescribed rotations balance theirs */
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_SEARCH);
     BRC_TRY(brc_contact_broken(s, half_kick));
     brc_phase_within(s, before);

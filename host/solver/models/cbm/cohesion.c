@@ -1,7 +1,7 @@
 /* Cohesion of beams: those that open (beam_softening.c) and broken ones whose ends bear (beam_closure.c). */
 #include "beam_closure.h"
 #include "beam_softening.h"
-#include "cbm.h"
+#include "cbm_internal.h"
 
 static void release(brc_simulation *s)
 {

@@ -2,7 +2,7 @@
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "../../effects/fracture/breaking.h"
-#include "cbm.h"
+#include "cbm_internal.h"
 
 brc_status brc_cbm_evaluate(brc_simulation *s, const brc_force_request *r)
 {
@@ -16,5 +16,5 @@ brc_status brc_cbm_energies(brc_simulation *s, double *elastic, double *stabilis
     BRC_TRY(brc_pass_run(brc_cbm_own_of(s)->energy, s->n_groups));
     BRC_TRY(brc_beam_softening_energy(s));
     BRC_TRY(brc_beam_closure_energy(s));
-    return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+    return brc_vector_sum(s, brc_elastic_energy_of(s), s->layout->n_rows, elastic);
 }

@@ -1,5 +1,5 @@
 /* Bonds of cbm on the device: branches and inverse lengths. */
-#include "cbm.h"
+#include "cbm_internal.h"
 #include <math.h>
 
 static void inverse_length(const brc_simulation *s, int64_t e, int64_t h, double out[3])
@@ -16,6 +16,6 @@ brc_status brc_cbm_upload(brc_simulation *s)
 {
     static const double none[3] = {0, 0, 0}; /* missing: no stiffness */
     BRC_TRY(brc_beams_upload(s));
-    BRC_TRY(brc_geometry_branches(s, s->offset));
-    return brc_geometry_rows(s, s->ratio, 1, inverse_length, none);
+    BRC_TRY(brc_geometry_branches(s, brc_offset_of(s)));
+    return brc_geometry_rows(s, brc_ratio_of(s), 1, inverse_length, none);
 }

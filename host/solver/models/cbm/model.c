@@ -3,7 +3,7 @@
 #include "../../effects/effect.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
-#include "cbm.h"
+#include "cbm_internal.h"
 
 static const brc_model_statics statics = {
     .rotations = true, .symmetric = true, .blocks = brc_beams_precondition_blocks, .bond = brc_cbm_bond};

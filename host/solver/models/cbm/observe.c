@@ -1,5 +1,5 @@
 /* What is read of a state of cbm, and the least bytes of a step. */
-#include "cbm.h"
+#include "cbm_internal.h"
 #include <string.h>
 
 /* Strain that Hooke's law of the material gives for a stress. */

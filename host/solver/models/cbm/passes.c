@@ -1,5 +1,5 @@
 /* Passes of cbm. */
-#include "cbm.h"
+#include "cbm_internal.h"
 
 brc_status brc_cbm_create(brc_simulation *s)
 {
@@ -9,6 +9,7 @@ brc_status brc_cbm_create(brc_simulation *s)
 
 void brc_cbm_free(brc_simulation *s)
 {
+    if (s->of_model) brc_memory_free(brc_cbm_own_of(s)->beam);
     brc_memory_free(s->of_model);
 }
 
@@ -16,9 +17,7 @@ brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const br
 {
     brc_cbm_own *p = brc_cbm_own_of(s);
     const brc_beam *beam = brc_beam_of_element(s, 0);
-    s->constant.axial = beam->axial;
-    s->constant.bend = beam->bend;
-    s->constant.twist = beam->twist;
+    brc_set_beam(s, beam->axial, beam->bend, beam->twist);
     BRC_TRY(BRC_PASSES(s, request, BRC_PASS(&p->force, "cbm_force_pass", NULL)));
     return BRC_PASSES(s, run, BRC_PASS(&p->energy, "cbm_energy", NULL), BRC_PASS(&p->virial, "cbm_virial", "virial"));
 }

@@ -1,5 +1,5 @@
 /* Equilibrium of cbm: bonds of multigrid. */
-#include "cbm.h"
+#include "cbm_internal.h"
 
 static double in_series(double a, double b)
 {

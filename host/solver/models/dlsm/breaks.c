@@ -2,7 +2,7 @@
 #include "cell_softening.h"
 #include "../../core/sym3.h"
 #include "consistent.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 #include "rims.h"
 #include <math.h>
 

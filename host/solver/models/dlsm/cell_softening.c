@@ -1,7 +1,7 @@
 #include "cell_softening.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 #include <math.h>
 
 /* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open
@@ -378,14 +378,14 @@ static brc_status rejoin(brc_simulation *s, softening_faces *f)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n, "open faces"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(s->neighbour, 0, neighbour, 4 * n));
+    BRC_TRY_OR(cleanup, brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
     BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n));
     BRC_TRY_OR(cleanup, brc_download(s, brc_cell_breaks_array(s, "alive"),
                                      brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0)
             neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
-    BRC_TRY_OR(cleanup, brc_buffer_write(s->neighbour, 0, neighbour, 4 * n));
+    BRC_TRY_OR(cleanup, brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n));
 cleanup:
     brc_memory_free(neighbour);
     brc_memory_free(open);

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_CELL_SOFTENING_H
 #define BRC_SOLVER_CELL_SOFTENING_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 #include "../../core/state_store.h"
 #include "../../effects/fracture/strengths.h"
 

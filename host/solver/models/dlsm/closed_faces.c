@@ -1,5 +1,5 @@
 #include "closed_faces.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 #include "cell_softening.h"
 #include "rims.h"
 #include <limits.h>
@@ -29,12 +29,12 @@ static closed_faces *faces_of(const brc_simulation *s)
 /* In static stages and modes the sides know nothing of each other, as other surfaces (contact.c). */
 static bool sleeps(const brc_simulation *s)
 {
-    return s->stage < 0 || brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
+    return brc_simulation_stage(s) < 0 || brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
 }
 static bool acts(const brc_simulation *s, const brc_force_request *r)
 {
     const closed_faces *f = faces_of(s);
-    return f && f->any && !sleeps(s) && !r->homogeneous && r->displacement == s->displacement;
+    return f && f->any && !sleeps(s) && !r->homogeneous && r->displacement == brc_displacement_of(s);
 }
 
 static double friction_of(const brc_simulation *s)
@@ -160,7 +160,7 @@ brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_buffer_fill_zero(f->presses));
     BRC_TRY(BRC_RUN(f->follow, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"all", BRC_INT(f->all ? 1 : 0)},
                     {"moves", BRC_INT(moves ? 1 : 0)}, {"clear", BRC_COEFF(clear)},
-                    {"friction", BRC_COEFF(friction_of(s))}, {"dt", BRC_STATE(s->time_step.value)}));
+                    {"friction", BRC_COEFF(friction_of(s))}, {"dt", BRC_STATE(brc_simulation_time_step(s).value)}));
     if (moves) f->all = false;
     return BRC_RUN(f->press, s->n_groups, {"friction", BRC_COEFF(friction_of(s))});
 }
@@ -226,7 +226,7 @@ brc_status brc_closed_faces_stored(brc_simulation *s, double *out)
     *out = 0;
     if (!f || !f->any || sleeps(s)) return BRC_OK;
     BRC_TRY(brc_pass_run(f->energy, n));
-    return brc_vector_sum(s, s->kinetic, n, out);
+    return brc_vector_sum(s, brc_kinetic_of(s), n, out);
 }
 
 brc_status brc_closed_faces_friction(brc_simulation *s, double *out)

@@ -2,7 +2,7 @@
  * of a step. */
 #include "cell_softening.h"
 #include "closed_faces.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 
 static brc_status create(brc_simulation *s, const brc_strengths *strengths)
 {

@@ -5,7 +5,7 @@
 #ifndef BRC_SOLVER_MODELS_DLSM_CONSISTENT_H
 #define BRC_SOLVER_MODELS_DLSM_CONSISTENT_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 
 /* Area vector s [m^2] and ratio q = L/S [1/m] of a half-edge of an element as the device holds them, such that q s is
  * the branch to one rounding a component; s differs from the domain's area vector by rounding alone. */

@@ -3,7 +3,7 @@
 #include "closed_faces.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/loads/loads.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 #include "rims.h"
 
 /* The rings that each pass of dlsm goes over: list NULL, all elements. Where most cells are without bonds those with
@@ -42,7 +42,7 @@ static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
     const bool touching = brc_contact_acts(s, r);
     if (!brc_loads_on_faces(s) && !touching) return BRC_OK;
-    BRC_TRY(brc_buffer_fill_zero(s->held_moment));
+    BRC_TRY(brc_buffer_fill_zero(brc_held_moment_of(s)));
     if (touching) {
         const brc_step_phase before = brc_phase_within(s, BRC_PHASE_PAIRS);
         BRC_TRY(brc_contact_moments(s, r));
@@ -67,7 +67,7 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
     const brc_ring_list *flux_list = x->whole_flux ? NULL : x->list;
     BRC_TRY(gradients(s, r, x));
     BRC_TRY(brc_closed_faces_press(s, r));
-    if (r->displacement == s->displacement && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
+    if (r->displacement == brc_displacement_of(s) && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
     if (r->rings && brc_rims_energies_apart(s))
         BRC_TRY(brc_rims_stress(s, r));
     else
@@ -125,7 +125,8 @@ brc_status brc_dlsm_replace_around(brc_simulation *s, const brc_rings *rings)
     return brc_rings_replace(s, rings, brc_rims_add(s, rings) ? 1 : 3, 3);
 }
 
-/* Energies of the elements, s->elastic_energy and s->stabilisation_energy, without those of held faces. */
+/* Energies of the elements, brc_elastic_energy_of(s) and brc_stabilisation_energy_of(s), without those of held faces.
+ */
 static brc_status element_energies(brc_simulation *s, const brc_ring_list *list, int ring)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
@@ -154,10 +155,11 @@ brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, boo
     if (!apart) BRC_TRY(element_energies(s, list, ring));
     if (apart && found) BRC_TRY(elastic_around(s, list, ring)); /* after breaks: with their stresses */
     if (apart) BRC_TRY(bonds_around(s, list, ring_of_bonds));
-    BRC_TRY(brc_rings_sum(s, list, ring, s->elastic_energy, &part[0]));
-    if (found) BRC_TRY(brc_rings_sum(s, list, 0, s->elastic_energy, &part[1])); /* counted when they were found */
-    BRC_TRY(brc_rings_sum(s, list, apart ? ring_of_bonds : ring, s->stabilisation_energy, &part[2]));
-    if (found && !apart) BRC_TRY(brc_rings_sum(s, list, 0, s->stabilisation_energy, &part[3]));
+    BRC_TRY(brc_rings_sum(s, list, ring, brc_elastic_energy_of(s), &part[0]));
+    if (found)
+        BRC_TRY(brc_rings_sum(s, list, 0, brc_elastic_energy_of(s), &part[1])); /* counted when they were found */
+    BRC_TRY(brc_rings_sum(s, list, apart ? ring_of_bonds : ring, brc_stabilisation_energy_of(s), &part[2]));
+    if (found && !apart) BRC_TRY(brc_rings_sum(s, list, 0, brc_stabilisation_energy_of(s), &part[3]));
     *out = part[0] - part[1] + part[2] - part[3];
     return BRC_OK;
 }
@@ -167,8 +169,8 @@ brc_status brc_dlsm_energies(brc_simulation *s, double *elastic, double *stabili
     const int32_t n = s->layout->n_rows;
     double held;
     BRC_TRY(element_energies(s, NULL, 0));
-    BRC_TRY(brc_vector_sum(s, s->elastic_energy, n, elastic));
-    BRC_TRY(brc_vector_sum(s, s->stabilisation_energy, n, stabilisation));
+    BRC_TRY(brc_vector_sum(s, brc_elastic_energy_of(s), n, elastic));
+    BRC_TRY(brc_vector_sum(s, brc_stabilisation_energy_of(s), n, stabilisation));
     BRC_TRY(brc_force_held_energy(s, &held));
     *stabilisation += held;
     return BRC_OK;

@@ -1,6 +1,6 @@
 /* Bonds of dlsm on the device: areas, offsets, lengths over areas. */
 #include "consistent.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 
 static void area(const brc_simulation *s, int64_t e, int64_t h, double out[3])
 {
@@ -28,7 +28,7 @@ brc_status brc_dlsm_upload(brc_simulation *s)
     static const double none[3] = {0, 0, 0}, one[3] = {1, 0, 0}; /* missing: zero area, any ratio but zero */
     BRC_TRY(brc_geometry_shapes(s, true, brc_consistent_inverse));
     BRC_TRY(brc_geometry_materials(s));
-    BRC_TRY(brc_geometry_rows(s, s->area, 3, area, none));
-    BRC_TRY(brc_geometry_rows(s, s->offset, 3, offset, none));
-    return brc_geometry_rows(s, s->ratio, 1, ratio, one);
+    BRC_TRY(brc_geometry_rows(s, brc_area_of(s), 3, area, none));
+    BRC_TRY(brc_geometry_rows(s, brc_offset_of(s), 3, offset, none));
+    return brc_geometry_rows(s, brc_ratio_of(s), 1, ratio, one);
 }

@@ -3,7 +3,7 @@
 #include "../../effects/effect.h"
 #include "cell_softening.h"
 #include "closed_faces.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 #include "rims.h"
 
 static bool compacts(const brc_scene *scene)

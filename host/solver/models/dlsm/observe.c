@@ -1,6 +1,6 @@
 /* What is read of a state of dlsm, and the least bytes of a step. */
 #include "../../effects/loads/loads.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 #include <string.h>
 
 /* G = F - I of every element [n_elements][9]. */
@@ -8,8 +8,9 @@ static brc_status deformation(brc_simulation *s, double *out)
 {
     /* B is dead between force evaluations: its buffer takes G */
     BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->deformation, s->n_groups,
-                    {"face_loads", BRC_INT(brc_loads_n_held_faces(s) > 0 ? 1 : 0)}, {"deformation", BRC_BUF(s->flux)}));
-    return brc_coeff_from_rows(s, s->flux, out, 9);
+                    {"face_loads", BRC_INT(brc_loads_n_held_faces(s) > 0 ? 1 : 0)},
+                    {"deformation", BRC_BUF(brc_flux_of(s))}));
+    return brc_coeff_from_rows(s, brc_flux_of(s), out, 9);
 }
 
 /* Green strain of G. */

@@ -1,5 +1,5 @@
 /* Passes of dlsm. */
-#include "dlsm.h"
+#include "dlsm_internal.h"
 
 brc_status brc_dlsm_create(brc_simulation *s)
 {

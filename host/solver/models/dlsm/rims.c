@@ -1,6 +1,6 @@
 #include "rims.h"
 #include "cell_softening.h"
-#include "dlsm.h"
+#include "dlsm_internal.h"
 
 bool brc_rims_energies_apart(const brc_simulation *s)
 {

@@ -1,7 +1,7 @@
 /* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of
  * published_breaks.cl. */
 #include "../../core/sym3.h"
-#include "published.h"
+#include "published_internal.h"
 #include <math.h>
 
 /* An element whose bonds span less than this share of what they spanned in its weakest direction in the whole body has
@@ -116,6 +116,6 @@ brc_status brc_published_ratio(brc_simulation *s, double *out)
 
 brc_status brc_published_branches(brc_simulation *s, brc_buffer **out)
 {
-    *out = s->offset;
+    *out = brc_offset_of(s);
     return BRC_OK;
 }

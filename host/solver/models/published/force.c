@@ -1,6 +1,6 @@
 /* Forces and energies of dlsm-published: the order of its passes (docs/notebook/theory.md T3). */
 #include "../../effects/loads/loads.h"
-#include "published.h"
+#include "published_internal.h"
 
 brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
 {
@@ -28,7 +28,7 @@ brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *ring
     return brc_rings_replace(s, rings, 2, 2);
 }
 
-/* Energies of the elements, s->elastic_energy. */
+/* Energies of the elements, brc_elastic_energy_of(s). */
 static brc_status element_energies(brc_simulation *s, const brc_ring_list *list, int ring)
 {
     return brc_pass_over(s, brc_published_own_of(s)->energy, brc_published_own_of(s)->energy_listed, list, ring, NULL,
@@ -42,8 +42,9 @@ brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings
     const int ring = found ? 2 : 1;
     double part[2] = {0};
     BRC_TRY(element_energies(s, list, ring));
-    BRC_TRY(brc_rings_sum(s, list, ring, s->elastic_energy, &part[0]));
-    if (found) BRC_TRY(brc_rings_sum(s, list, 0, s->elastic_energy, &part[1])); /* counted when they were found */
+    BRC_TRY(brc_rings_sum(s, list, ring, brc_elastic_energy_of(s), &part[0]));
+    if (found)
+        BRC_TRY(brc_rings_sum(s, list, 0, brc_elastic_energy_of(s), &part[1])); /* counted when they were found */
     *out = part[0] - part[1];
     return BRC_OK;
 }
@@ -52,5 +53,5 @@ brc_status brc_published_energies(brc_simulation *s, double *elastic, double *st
 {
     *stabilisation = 0;
     BRC_TRY(element_energies(s, NULL, 0));
-    return brc_vector_sum(s, s->elastic_energy, s->layout->n_rows, elastic);
+    return brc_vector_sum(s, brc_elastic_energy_of(s), s->layout->n_rows, elastic);
 }

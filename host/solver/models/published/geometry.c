@@ -1,5 +1,5 @@
 /* Bonds of dlsm-published on the device: branches and areas. */
-#include "published.h"
+#include "published_internal.h"
 #include <math.h>
 
 static void surface(const brc_simulation *s, int64_t e, int64_t h, double out[3])
@@ -14,6 +14,6 @@ brc_status brc_published_upload(brc_simulation *s)
     static const double none[3] = {0, 0, 0};
     BRC_TRY(brc_geometry_shapes(s, s->scene->model.area_weights, NULL));
     BRC_TRY(brc_geometry_materials(s));
-    BRC_TRY(brc_geometry_branches(s, s->offset));
-    return brc_geometry_rows(s, s->area, 1, surface, none);
+    BRC_TRY(brc_geometry_branches(s, brc_offset_of(s)));
+    return brc_geometry_rows(s, brc_area_of(s), 1, surface, none);
 }

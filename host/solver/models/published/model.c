@@ -1,7 +1,7 @@
 /* Model dlsm-published: the published law, AGH19 (docs/notebook/theory.md T3). */
 #include "../../effects/fracture/cell_breaks.h"
 #include "../../effects/guard_cause.h"
-#include "published.h"
+#include "published_internal.h"
 
 static const brc_model_breaking breaking = {.create = brc_published_breaks_create,
                                             .area_width = 1,
@@ -20,7 +20,7 @@ static const brc_model_statics statics = {.linear = true,
                                           .least_tolerance = 1e-5,
                                           .soft = 1e-6,
                                           .blocks = brc_geometry_precondition_blocks,
-                                          .settle = brc_published_settle};
+                                          .torques = brc_published_torques};
 
 static void explain_loss(const brc_simulation *s, char *text, size_t size)
 {

@@ -1,5 +1,5 @@
 /* What is read of a state of dlsm-published, and the least bytes of a step. */
-#include "published.h"
+#include "published_internal.h"
 #include <string.h>
 
 brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
@@ -7,7 +7,7 @@ brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double
     const int64_t n = s->domain->n_elements;
     double *own = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &own, 6 * n, "strains"));
-    const brc_status status = brc_coeff_from_rows(s, s->gradient, own, 6);
+    const brc_status status = brc_coeff_from_rows(s, brc_gradient_of(s), own, 6);
     for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
         double sigma[6];
         brc_hooke(s->elastic + s->material_of_element[e], own + 6 * e, sigma);
@@ -26,8 +26,8 @@ brc_status brc_published_face_displacement(brc_simulation *s, int64_t n, const i
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * d->n_elements, "orientations"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->displacement, u, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, s->orientation, q, 4));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_displacement_of(s), u, 3));
+    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_orientation_of(s), q, 4));
     for (int64_t i = 0; i < n; ++i) {
         const int64_t f = faces[i], e = d->free_element[f];
         double a[3], once[3], twice[3];

@@ -1,5 +1,5 @@
 /* Passes of dlsm-published. */
-#include "published.h"
+#include "published_internal.h"
 
 brc_status brc_published_create(brc_simulation *s)
 {

@@ -1,7 +1,5 @@
 /* Equilibrium of dlsm-published: its rotations. */
-#include "../../statics/statics.h"
-#include "published.h"
-#include <math.h>
+#include "published_internal.h"
 
 /* Take the mean torque off: turning every element alike costs nothing, so only the rest can be balanced. */
 static brc_status remove_mean(brc_simulation *s, brc_buffer *torque)
@@ -19,22 +17,17 @@ static brc_status remove_mean(brc_simulation *s, brc_buffer *torque)
     return status;
 }
 
-brc_status brc_published_settle(brc_simulation *s, brc_solve_vectors *v, brc_progress *progress)
+brc_status brc_published_torques(brc_simulation *s, const brc_settle_room *room)
 {
-    double square, left;
-    BRC_TRY(brc_vector_small_rotation(s, v->zero, v->orientation));
-    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = s->displacement,
-                                                       .force = v->z.move,
-                                                       .orientation = v->orientation,
-                                                       .torque = v->r.move,
-                                                       .homogeneous = true}));
-    BRC_TRY(brc_published_tractions(s, &(brc_force_request){.displacement = s->displacement,
-                                                            .force = v->z.move,
-                                                            .orientation = v->orientation,
-                                                            .torque = v->r.move,
-                                                            .t = s->load_factor}));
-    BRC_TRY(remove_mean(s, v->r.move));
-    BRC_TRY(brc_statics_square(s, v, v->r, &square));
-    BRC_TRY(brc_conjugate_gradients(s, v, true, 1e-6 * sqrt(square), brc_statics_most_iterations(s), progress, &left));
-    return brc_vector_small_rotation(s, v->x.move, s->orientation);
+    brc_force_request request = {.displacement = brc_displacement_of(s),
+                                 .force = room->force,
+                                 .orientation = room->orientation,
+                                 .torque = room->torque,
+                                 .homogeneous = true};
+    BRC_TRY(brc_vector_small_rotation(s, room->zero, room->orientation));
+    BRC_TRY(brc_force_evaluate(s, &request));
+    request.homogeneous = false;
+    request.t = brc_loads_time(s);
+    BRC_TRY(brc_published_tractions(s, &request));
+    return remove_mean(s, room->torque);
 }

@@ -4,7 +4,7 @@
 #ifndef BRC_SOLVER_MULTIGRID_FINE_H
 #define BRC_SOLVER_MULTIGRID_FINE_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
 #include "rows.h"
 
 /* Of a material: stiffness of its bonds over S/L along and across them, and of the frames of their ends over L^2

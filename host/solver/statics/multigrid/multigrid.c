@@ -66,8 +66,8 @@ static brc_status make_passes(brc_multigrid *m)
                   {&p->prolong, &transfer, "multigrid_prolong", "coarse_move coarse_turn"},
                   {&p->restriction, &transfer, "multigrid_restrict", "coarse_force coarse_torque"}};
     m->by_branch = s->model->turns; /* which cells that turn store */
-    m->vector = m->by_branch ? s->offset : s->area;
-    m->number = m->by_branch ? s->area : s->ratio;
+    m->vector = m->by_branch ? brc_offset_of(s) : brc_area_of(s);
+    m->number = m->by_branch ? brc_area_of(s) : brc_ratio_of(s);
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; ++i)
         BRC_TRY(brc_pass_make(s->context, s->device, wanted[i].scope, wanted[i].kernel, wanted[i].open, &p->all,
                               wanted[i].slot));

@@ -3,9 +3,16 @@
 #ifndef BRC_SOLVER_MULTIGRID_MULTIGRID_H
 #define BRC_SOLVER_MULTIGRID_MULTIGRID_H
 
-#include "../statics.h"
+#include "../unknowns.h"
 
 typedef struct brc_multigrid brc_multigrid;
+
+/* What multigrid was made of, from which the same can be made again later: bonds that broke after the moment
+ * (brc_fracture_moment) counted as whole. */
+typedef struct brc_multigrid_origin {
+    int64_t moment;
+    double weight; /* of a step on the finest level [-]; 0: nothing was made */
+} brc_multigrid_origin;
 
 /* Elements from which on it is worth its setup. */
 enum { BRC_MULTIGRID_LEAST = 500 };
@@ -16,6 +23,10 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
 void brc_multigrid_free(brc_multigrid **multigrid);
 /* z = M r. r.turn NULL: no torques; z.turn NULL: rotations are not asked for. r and z do not overlap. */
 brc_status brc_multigrid_apply(brc_multigrid *multigrid, brc_unknowns r, brc_unknowns z);
+
+/* out = right - A x of a level, 0 the finest; right.move NULL: none; right.turn NULL: no torques. */
+brc_status brc_level_residual(brc_multigrid *multigrid, int level, brc_unknowns x, brc_unknowns right,
+                              brc_unknowns out);
 
 /* What it is made of. */
 typedef struct brc_multigrid_report {

@@ -46,8 +46,6 @@ struct brc_multigrid {
     brc_multigrid_report report;
 };
 
-/* out = right - A x of a level; right.move NULL: none; right.turn NULL: no torques. */
-brc_status brc_level_residual(brc_multigrid *m, int level, brc_unknowns x, brc_unknowns right, brc_unknowns out);
 /* x = [x +] weight D^-1 r. */
 brc_status brc_level_step(brc_multigrid *m, int level, double weight, bool add, brc_unknowns r, brc_unknowns x);
 /* Largest eigenvalue of D^-1 A, from below, to some percent. */

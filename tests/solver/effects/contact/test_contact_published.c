@@ -14,7 +14,7 @@ static void momenta(bench_case *c, double out[6], double most[2])
     assert_done(c, brc_simulation_displacement(c->simulation, u));
     assert_done(c, brc_simulation_velocity(c->simulation, v));
     assert_done(c, brc_simulation_orientation(c->simulation, q, w));
-    assert_done(c, brc_state_from_rows(c->simulation, c->simulation->inertia, inertia, 1));
+    assert_done(c, brc_state_from_rows(c->simulation, brc_inertia_of(c->simulation), inertia, 1));
     memset(out, 0, 6 * sizeof *out);
     most[0] = most[1] = 0;
     for (int64_t e = 0; e < n; ++e) {

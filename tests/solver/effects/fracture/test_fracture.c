@@ -144,7 +144,7 @@ static void elements_at_their_limit_lose_the_bond_nearest_to_the_pull(void **sta
             }
             steps_with_breaks += total > before;
             if (total == before && total > 0) { /* the state after the step is the one that was judged */
-                assert_done(&c, brc_beams_stress(c.simulation, level, expected));
+                assert_done(&c, brc_simulation_virial_stress(c.simulation, level, expected));
                 double largest = 0;
                 for (int64_t k = 0; k < 6 * d->n_elements; ++k)
                     largest = fmax(largest, fabs(expected[k]));

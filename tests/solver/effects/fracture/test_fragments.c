@@ -29,7 +29,7 @@ static void a_rigid_motion_is_read_back(void **state)
             spin[3 * e + k] = w[k];
         }
     assert_done(&c, brc_simulation_set_state(c.simulation, NULL, velocity));
-    assert_done(&c, brc_state_to_rows(c.simulation, c.simulation->spin, spin, 3, 0));
+    assert_done(&c, brc_state_to_rows(c.simulation, brc_spin_of(c.simulation), spin, 3, 0));
     assert_done(&c, brc_simulation_fragment_list(c.simulation, &n, &list));
     assert_done(&c, brc_simulation_ledger(c.simulation, &ledger));
     assert_int_equal(n, 1);
@@ -72,8 +72,8 @@ static void fragments_share_out_mass_momentum_and_energy(void **state)
            *v = calloc((size_t)(3 * n_all), sizeof *v);
     double *x = calloc((size_t)(3 * n_all), sizeof *x), *q = calloc((size_t)(4 * n_all), sizeof *q),
            *w = calloc((size_t)(3 * n_all), sizeof *w);
-    assert_done(&c, brc_state_from_rows(c.simulation, c.simulation->mass, m, 1));
-    assert_done(&c, brc_state_from_rows(c.simulation, c.simulation->inertia, j, 1));
+    assert_done(&c, brc_state_from_rows(c.simulation, brc_mass_of(c.simulation), m, 1));
+    assert_done(&c, brc_state_from_rows(c.simulation, brc_inertia_of(c.simulation), j, 1));
     assert_done(&c, brc_simulation_velocity(c.simulation, v));
     assert_done(&c, brc_simulation_displacement(c.simulation, x));
     assert_done(&c, brc_simulation_orientation(c.simulation, q, w));

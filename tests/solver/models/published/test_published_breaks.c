@@ -308,7 +308,7 @@ static void turn_rubble(const char *model, const char *materials)
     double *q = calloc((size_t)(4 * c.domain->n_elements), sizeof *q);
     for (int64_t e = 0; e < c.domain->n_elements; ++e)
         q[4 * e] = cos(0.35), q[4 * e + 3] = sin(0.35);
-    assert_done(&c, brc_state_to_rows(c.simulation, c.simulation->orientation, q, 4, 0));
+    assert_done(&c, brc_state_to_rows(c.simulation, brc_orientation_of(c.simulation), q, 4, 0));
     for (int64_t e = 0; e < c.domain->n_elements; ++e) {
         const double *x = c.domain->position + 3 * e;
         zero[3 * e] = cos(0.7) * x[0] - sin(0.7) * x[1] - x[0];

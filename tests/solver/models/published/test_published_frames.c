@@ -1,7 +1,7 @@
 /* Frames of elements of dlsm-published: what holds them to the solid as it turns (docs/notebook/theory.md T3). E 1 Pa,
  * nu 0.2, density 1 kg/m^3. */
 #include "../../support.h"
-#include "../../../../host/solver/core/simulation_internal.h"
+#include "../../../../host/solver/core/solver.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -16,10 +16,10 @@ static double *torques_of_turned_frames(bench_case *c, double angle)
     for (int64_t e = 0; e < n; ++e)
         q[4 * e] = cos(angle / 2), q[4 * e + 3] = sin(angle / 2);
     begin_first(c);
-    assert_done(c, brc_state_to_rows(c->simulation, c->simulation->orientation, q, 4, 0));
+    assert_done(c, brc_state_to_rows(c->simulation, brc_orientation_of(c->simulation), q, 4, 0));
     assert_done(c, brc_simulation_set_state(c->simulation, zero, NULL));
     assert_done(c, brc_simulation_force(c->simulation, force));
-    assert_done(c, brc_state_from_rows(c->simulation, c->simulation->torque, torque, 3));
+    assert_done(c, brc_state_from_rows(c->simulation, brc_torque_of(c->simulation), torque, 3));
     free(q);
     return torque;
 }

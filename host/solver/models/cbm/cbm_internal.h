@@ -2,10 +2,17 @@
 #ifndef BRC_SOLVER_MODELS_CBM_CBM_H
 #define BRC_SOLVER_MODELS_CBM_CBM_H
 
-#include "../../core/simulation_internal.h"
+#include "../../core/solver.h"
+
+/* Beams of one material in one body (beams.c). */
+typedef struct brc_beam {
+    double radius;             /* of the beams [m] */
+    double axial, bend, twist; /* E S [N], 2 E I [N m^2], G J [N m^2] */
+} brc_beam;
 
 /* What a run of it keeps. */
 typedef struct brc_cbm_own {
+    brc_beam *beam; /* [n_bodies][n_materials] */
     brc_pass *force, *energy, *virial;
     brc_pass *breaking_force, *break_pass; /* only with fracture */
     struct brc_beam_softening *softening;  /* beams that open against cohesion (beam_softening.c); NULL: none does */
@@ -38,6 +45,23 @@ brc_status brc_cbm_break_bonds(brc_simulation *s, double half_kick);
 
 /* ---- cohesion.c ---- */
 extern const brc_model_cohesion brc_cbm_cohesion;
+
+/* ---- beams.c ---- */
+/* Beams of every material in every body; isolated elements are refused or reported. */
+brc_status brc_beams_create(brc_simulation *s);
+/* Stiffness of every row, where there are several materials. */
+brc_status brc_beams_upload(brc_simulation *s);
+/* Stiffness of element e's own beams. */
+const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e);
+/* Stress of every element [n_elements][6] xx yy zz yz xz xy [Pa], averaged over the element and its neighbours over
+ * bonds, `level` shells of them (NAH19 section 2.2; 1 in the paper). Volumes are those of the spheres over the
+ * packing's volume fraction. */
+brc_status brc_beams_stress(brc_simulation *s, int level, double *out);
+/* Inverses of the 6 x 6 diagonal blocks, upper triangles [n_rows][21]; elements without bonds get zero. */
+brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out);
+/* Rigorous lower bound of the critical time step [s]: 2 / sqrt(2 max lambda(M_i^-1 D_i)) over the elements' diagonal
+ * blocks (docs/notebook/beams.md). */
+brc_status brc_beams_node_bound(brc_simulation *s, double *out);
 
 /* ---- geometry.c ---- */
 brc_status brc_cbm_upload(brc_simulation *s);

@@ -1,28 +1,27 @@
 /* Shared by the linear solvers of the static stage. */
-#ifndef BRC_SOLVER_STATICS_H
-#define BRC_SOLVER_STATICS_H
+#ifndef BRC_SOLVER_STATICS_INTERNAL_H
+#define BRC_SOLVER_STATICS_INTERNAL_H
 
 #include "../../base/log.h"
 #include "pieces.h"
-#include "../core/simulation_internal.h"
+#include "../core/solver.h"
+#include "../core/trial_budget.h"
+#include "multigrid/multigrid.h"
 
-/* A vector of all unknowns: displacements or forces [n_rows][3] and, for cbm, rotations or torques [n_rows][3] (else
- * NULL). */
-typedef struct brc_unknowns {
-    brc_buffer *move, *turn;
-} brc_unknowns;
-
-/* What multigrid was made of, from which the same can be made again later: bonds that broke after the moment
- * (brc_fracture_moment) counted as whole. */
-typedef struct brc_multigrid_origin {
-    int64_t moment;
-    double weight; /* of a step on the finest level [-]; 0: nothing was made */
-} brc_multigrid_origin;
+/* What statics/ keeps of a simulation. */
+struct brc_statics {
+    struct brc_static_run *stage; /* that runs; else NULL */
+    brc_static_report report;
+    double *modes;
+    int32_t n_modes;
+    double margin, largest_load; /* of the events of a stage; margin 0: none yet */
+    double released;             /* elastic energy beyond that of the broken bonds that events set free [J] */
+};
 
 /* What stands for K^-1 in the iterations of a stage: multigrid where the body is large enough, else diagonal blocks. */
 typedef struct brc_preconditioner {
-    brc_buffer *blocks;              /* inverses [n_rows][6], cbm [n_rows][21] */
-    struct brc_multigrid *multigrid; /* NULL: blocks, or not made yet */
+    brc_buffer *blocks;       /* inverses [n_rows][6], cbm [n_rows][21] */
+    brc_multigrid *multigrid; /* NULL: blocks, or not made yet */
     brc_multigrid_origin origin;
     bool blocks_alone; /* multigrid failed in this stage */
     bool bonds_broke;  /* since multigrid was made */
@@ -67,11 +66,6 @@ extern const brc_field_table brc_solve_fields;
 brc_status brc_solve_vectors_create(brc_simulation *s, brc_solve_vectors *v);
 void brc_solve_vectors_free(brc_solve_vectors *v);
 
-/* y += a x; y = x + a y; x.y, the rotations' part times `weight`; to = from. */
-brc_status brc_unknowns_add(brc_simulation *s, double a, brc_unknowns x, brc_unknowns y);
-brc_status brc_unknowns_scale_add(brc_simulation *s, brc_unknowns x, double a, brc_unknowns y);
-brc_status brc_unknowns_dot(brc_simulation *s, brc_unknowns x, brc_unknowns y, double weight, double *out);
-brc_status brc_unknowns_copy(brc_unknowns from, brc_unknowns to);
 /* Sum of squares of forces and of torques over the arm [N^2]. */
 brc_status brc_statics_square(brc_simulation *s, const brc_solve_vectors *v, brc_unknowns r, double *out);
 

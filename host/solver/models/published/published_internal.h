@@ -32,8 +32,8 @@ brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *ring
 brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
 
 /* ---- statics.c ---- */
-/* Rotations that balance the torques of the displacements just found, into the orientations. */
-brc_status brc_published_settle(brc_simulation *s, struct brc_solve_vectors *v, struct brc_progress *progress);
+/* Torques of the displacements just found. */
+brc_status brc_published_torques(brc_simulation *s, const brc_settle_room *room);
 
 /* ---- breaks.c: as brc_model_breaking says ---- */
 brc_status brc_published_breaks_create(brc_simulation *s);

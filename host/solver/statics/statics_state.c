@@ -1,0 +1,44 @@
+/* What statics keep of a simulation: reports, modes, how far events have come. */
+#include "statics_internal.h"
+
+brc_status brc_statics_create(brc_simulation *s)
+{
+    return BRC_ALLOCATE(s->context, &s->statics, 1, "simulation");
+}
+void brc_statics_free(brc_simulation *s)
+{
+    if (s->statics) brc_memory_free(s->statics->modes);
+    brc_memory_free(s->statics);
+    s->statics = NULL;
+}
+
+brc_static_report brc_simulation_static_report(const brc_simulation *s)
+{
+    return s->statics->report;
+}
+
+const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
+{
+    *n = s->statics->n_modes;
+    return s->statics->modes;
+}
+
+double brc_statics_released(const brc_simulation *s)
+{
+    return s->statics->released;
+}
+
+brc_status brc_statics_store(brc_simulation *s, brc_state_store *store)
+{
+    struct brc_statics *own = s->statics;
+    int64_t n_modes = own->n_modes;
+    BRC_TRY(brc_store_double(store, "released", &own->released));
+    BRC_TRY(brc_store_double(store, "static.residual", &own->report.residual));
+    BRC_TRY(brc_store_integer(store, "static.iterations", &own->report.iterations));
+    BRC_TRY(brc_store_integer(store, "static.corrections", &own->report.corrections));
+    BRC_TRY(brc_store_double(store, "events.margin", &own->margin));
+    BRC_TRY(brc_store_double(store, "events.largest_load", &own->largest_load));
+    BRC_TRY(brc_store_array(s->context, store, "modes", BRC_STORED_DOUBLE, 1, &n_modes, (void **)&own->modes));
+    own->n_modes = (int32_t)n_modes;
+    return BRC_OK;
+}
