@@ -1,4 +1,5 @@
 /* Platens, jaws and rollers: where their strikers stand follows from the shape of the body that they press. */
+#include "../../preprocess/shapes/shape_type.h"
 #include "reader_internal.h"
 #include "schema_internal.h"
 #include "../base/memory.h"
@@ -64,36 +65,22 @@ static double stand_out(const brc_body *body, double bounds[2][3], int axis)
 {
     const brc_shape_kind kind = body->shape.kind;
     const bool ends = (kind == BRC_SHAPE_CYLINDER || kind == BRC_SHAPE_CONE) && body->shape.axis == axis;
-    if (body->beams > 0 || kind == BRC_SHAPE_BOX || kind == BRC_SHAPE_PARTS || ends) return 0;
+    const int curved = brc_shape_type_of(kind)->curved;
+    if (body->beams > 0 || curved == 0 || ends) return 0;
     const double size = size_of_elements(&body->fill, bounds), radius = 0.5 * (bounds[1][axis] - bounds[0][axis]);
-    return (kind == BRC_SHAPE_SPHERE || kind == BRC_SHAPE_TORUS ? 2 : 1) * size * size / (12 * radius);
+    return curved * size * size / (12 * radius);
 }
 
 /* Bounds of a single shape; false: they are not known here. */
 static bool bounds_of_leaf(const brc_shape *shape, double bounds[2][3])
 {
-    const double widest = shape->kind == BRC_SHAPE_CONE    ? fmax(shape->radius, shape->radius2)
-                          : shape->kind == BRC_SHAPE_TORUS ? shape->radius + shape->radius2
-                                                           : shape->radius;
+    const brc_shape_type *type = brc_shape_type_of(shape->kind);
+    double low[3], high[3];
+    if (!type->bounds) return false;
+    type->bounds(shape, low, high);
     for (int c = 0; c < 3; ++c) {
-        const bool along = c == shape->axis;
-        double low = -widest, high = widest;
-        switch (shape->kind) {
-        case BRC_SHAPE_BOX: low = 0, high = shape->size[c]; break;
-        case BRC_SHAPE_CYLINDER:
-        case BRC_SHAPE_CONE:
-            if (along) low = 0, high = shape->length;
-            break;
-        case BRC_SHAPE_TORUS:
-            if (along) low = -shape->radius2, high = shape->radius2;
-            break;
-        case BRC_SHAPE_SPHERE: break;
-        case BRC_SHAPE_HALF_SPACE:
-        case BRC_SHAPE_MESH:
-        case BRC_SHAPE_PARTS: return false;
-        }
-        bounds[0][c] = shape->origin[c] + low;
-        bounds[1][c] = shape->origin[c] + high;
+        bounds[0][c] = shape->origin[c] + low[c];
+        bounds[1][c] = shape->origin[c] + high[c];
     }
     return true;
 }

@@ -1,5 +1,6 @@
 /* Names of sets: walls, bodies and the scene's own sets. What refers to a name is checked here, and bodies that are
  * named as sets become sets. */
+#include "../../preprocess/shapes/shape_type.h"
 #include "reader_internal.h"
 #include "schema_internal.h"
 #include "../base/memory.h"
@@ -115,13 +116,8 @@ static bool is_closed_wall(const brc_body *body, const char *wall)
     if (body->domain_file[0] || body->beams > 0) return false;
     for (int c = 0; c < body->n_cracks; ++c)
         if (strcmp(body->cracks[c].name, wall) == 0) return true;
-    switch (body->shape.kind) {
-    case BRC_SHAPE_CYLINDER: return strcmp(wall, "side") == 0;
-    case BRC_SHAPE_SPHERE:
-    case BRC_SHAPE_TORUS:
-    case BRC_SHAPE_MESH: return strcmp(wall, "surface") == 0;
-    default: return false;
-    }
+    const char *closed = brc_shape_type_of(body->shape.kind)->closed_wall;
+    return closed && strcmp(wall, closed) == 0;
 }
 
 bool brc_names_is_closed(const brc_scene *scene, const char *name)

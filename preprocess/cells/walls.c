@@ -4,31 +4,17 @@
 #include "walls.h"
 
 #include "../../host/base/memory.h"
+#include "../shapes/shape_type.h"
 
 #include <math.h>
 #include <string.h>
 
 #define PI 3.14159265358979323846
 
-/* Curved walls never get coarser than this: volume is exact at any number, but the outline should look round. */
-enum { LEAST_PRISM_SIDES = 32, LEAST_SPHERE_PLANES = 256 };
-
 double brc_walls_n_planes(const brc_shape *shape, double spacing)
 {
-    const double r = (shape->kind == BRC_SHAPE_CONE ? fmax(shape->radius, shape->radius2) : shape->radius) / spacing;
-    switch (shape->kind) {
-    case BRC_SHAPE_CONE: /* dozens of planes through one point, or nearly, are too much for Voro++ */
-        if (fmin(shape->radius, shape->radius2) < spacing) return 0.0;
-        return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
-    case BRC_SHAPE_CYLINDER: return fmax(LEAST_PRISM_SIDES, ceil(2.0 * PI * r));
-    case BRC_SHAPE_SPHERE: return fmax(LEAST_SPHERE_PLANES, ceil(4.0 * PI * r * r));
-    case BRC_SHAPE_BOX:
-    case BRC_SHAPE_TORUS:
-    case BRC_SHAPE_HALF_SPACE:
-    case BRC_SHAPE_MESH:
-    case BRC_SHAPE_PARTS: break;
-    }
-    return 0.0;
+    const brc_shape_type *type = brc_shape_type_of(shape->kind);
+    return type->planes ? type->planes(shape, spacing) : 0.0;
 }
 
 /* Normal k of n on a Fibonacci lattice: equal steps of z, the azimuth turning by the golden angle. */

@@ -3,6 +3,7 @@
 
 #include "../../host/base/memory.h"
 #include "../../host/base/version.h"
+#include "../shapes/shape_type.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -36,25 +37,9 @@ static void say(text *t, const char *format, ...)
 
 static void say_leaf(text *t, const brc_shape *s)
 {
-    switch (s->kind) {
-    case BRC_SHAPE_BOX: say(t, "box %.17g x %.17g x %.17g m", s->size[0], s->size[1], s->size[2]); break;
-    case BRC_SHAPE_CYLINDER:
-        say(t, "cylinder along %c, length %.17g m, radius %.17g m", "xyz"[s->axis], s -> length, s -> radius);
-        break;
-    case BRC_SHAPE_SPHERE: say(t, "sphere, radius %.17g m", s->radius); break;
-    case BRC_SHAPE_CONE:
-        say(t, "cone along %c, length %.17g m, radii %.17g and %.17g m", "xyz"[s->axis], s -> length, s -> radius,
-            s -> radius2);
-        break;
-    case BRC_SHAPE_TORUS:
-        say(t, "torus about %c, radii %.17g and %.17g m", "xyz"[s->axis], s -> radius, s -> radius2);
-        break;
-    case BRC_SHAPE_HALF_SPACE:
-        say(t, "half-space, normal (%.17g, %.17g, %.17g)", s->normal[0], s->normal[1], s->normal[2]);
-        break;
-    case BRC_SHAPE_MESH: say(t, "mesh %s, %.17g m per unit", s->file, s->scale); break;
-    case BRC_SHAPE_PARTS: break;
-    }
+    char words[768];
+    brc_shape_type_of(s->kind)->words(s, words, sizeof words);
+    say(t, "%s", words);
     say(t, " at (%.17g, %.17g, %.17g) m", s->origin[0], s->origin[1], s->origin[2]);
 }
 

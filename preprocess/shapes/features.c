@@ -3,6 +3,7 @@
 
 #include "../../host/base/log.h"
 #include "../../host/base/random.h"
+#include "shape_type.h"
 #include "solid_internal.h"
 
 #include <math.h>
@@ -13,21 +14,8 @@ enum { SAMPLES = 2048, MOST_WARNINGS = 8, NAME_ROOM = 64 };
 /* The least width of a part [m]; HUGE_VAL: it has none. */
 static double width_of(const brc_leaf *leaf)
 {
-    const brc_shape *s = &leaf->shape;
-    double bounds[2][3];
-    switch (s->kind) {
-    case BRC_SHAPE_BOX: return fmin(s->size[0], fmin(s->size[1], s->size[2]));
-    case BRC_SHAPE_CYLINDER: return fmin(2.0 * s->radius, s->length);
-    case BRC_SHAPE_SPHERE: return 2.0 * s->radius;
-    case BRC_SHAPE_CONE: return fmin(2.0 * fmax(s->radius, s->radius2), s->length);
-    case BRC_SHAPE_TORUS: return 2.0 * s->radius2;
-    case BRC_SHAPE_MESH:
-        brc_mesh_bounds(leaf->mesh, bounds);
-        return fmin(bounds[1][0] - bounds[0][0], fmin(bounds[1][1] - bounds[0][1], bounds[1][2] - bounds[0][2]));
-    case BRC_SHAPE_HALF_SPACE:
-    case BRC_SHAPE_PARTS: break;
-    }
-    return HUGE_VAL;
+    const brc_shape_type *type = brc_shape_type_of(leaf->shape.kind);
+    return type->width ? type->width(&leaf->shape, leaf->mesh) : HUGE_VAL;
 }
 
 /* The box around the points drawn of a surface at which the solid ends; grows. */

@@ -1,4 +1,5 @@
 /* A solid as a list of leaves: made, described and asked whether a point is inside. */
+#include "shape_type.h"
 #include "solid_internal.h"
 
 #include "../../host/base/memory.h"
@@ -9,8 +10,6 @@
 /* A step off a surface, of the shape's size: far above rounding, far below any feature. */
 #define TINY_STEP 1e-7
 enum { MOST_SURFACES_OF_A_LEAF = 6, MOST_PARTS = 10000 };
-#define PI 3.14159265358979323846
-
 /* Single shapes are one part. */
 static brc_status make_leaves(brc_context *context, brc_solid *solid, int n_threads)
 {
@@ -94,36 +93,9 @@ static bool find_convex(const brc_solid *solid)
 static void measure_single(brc_solid *solid)
 {
     const brc_shape *s = &solid->shape;
-    const double r = s->radius, q = s->radius2, slant = hypot(s->length, r - q);
     memcpy(solid->bounds, solid->leaf[0].bounds, sizeof solid->bounds);
-    switch (s->kind) {
-    case BRC_SHAPE_BOX:
-        solid->volume = s->size[0] * s->size[1] * s->size[2];
-        solid->area = 2.0 * (s->size[0] * s->size[1] + s->size[1] * s->size[2] + s->size[2] * s->size[0]);
-        return;
-    case BRC_SHAPE_CYLINDER:
-        solid->volume = PI * r * r * s->length;
-        solid->area = 2.0 * PI * r * (r + s->length);
-        return;
-    case BRC_SHAPE_SPHERE:
-        solid->volume = 4.0 / 3.0 * PI * r * r * r;
-        solid->area = 4.0 * PI * r * r;
-        return;
-    case BRC_SHAPE_CONE:
-        solid->volume = PI / 3.0 * s->length * (r * r + r * q + q * q);
-        solid->area = PI * (r * r + q * q + (r + q) * slant);
-        return;
-    case BRC_SHAPE_TORUS:
-        solid->volume = 2.0 * PI * PI * r * q * q;
-        solid->area = 4.0 * PI * PI * r * q;
-        return;
-    case BRC_SHAPE_MESH:
-        solid->volume = brc_mesh_volume(solid->leaf[0].mesh);
-        solid->area = brc_mesh_area(solid->leaf[0].mesh);
-        return;
-    case BRC_SHAPE_HALF_SPACE:
-    case BRC_SHAPE_PARTS: return;
-    }
+    const brc_shape_type *type = brc_shape_type_of(s->kind);
+    if (type->measure) type->measure(s, solid->leaf[0].mesh, &solid->volume, &solid->area);
 }
 
 brc_status brc_solid_create(brc_context *context, const brc_shape *shape, int n_threads, brc_solid **out)
