@@ -70,6 +70,19 @@ bool brc_crack_patch_covers(const brc_crack_patch *patch, const double x[3], dou
     return true;
 }
 
+double brc_crack_patch_depth(const brc_crack_patch *patch, int side, const double x[3], double outward[3])
+{
+    const int m = side / 2, is_far = side % 2;
+    double r[3];
+    minus(x, patch->point, r);
+    const double size = sqrt(dot(patch->dual[m], patch->dual[m]));
+    const double place = dot(patch->dual[m], r), beside = dot(patch->dual[1 - m], r);
+    for (int k = 0; k < 3; ++k)
+        outward[k] = (is_far ? patch->dual[m][k] : -patch->dual[m][k]) / size;
+    if (beside < 0.0 || beside > 1.0) return -HUGE_VAL;
+    return (is_far ? 1.0 - place : place) / size;
+}
+
 /* Distance of r to the edge that starts at `from` and runs along `along` [m]. */
 static double edge_distance(const double r[3], const double from[3], const double along[3])
 {

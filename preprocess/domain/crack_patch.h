@@ -20,6 +20,9 @@ double brc_crack_patch_height(const brc_crack_patch *patch, const double x[3]);
 /* Does the projection of x on the plane lie in the patch, or no farther than `margin` [m] beyond its rim (beyond the
  * lines of its edges)? Inclusive. */
 bool brc_crack_patch_covers(const brc_crack_patch *patch, const double x[3], double margin);
+/* How far the projection of x on the plane of a rectangle lies inside one of its four sides [m], below 0 beyond it, and
+ * the unit vector out of the patch across it; -HUGE_VAL where that side ends before. */
+double brc_crack_patch_depth(const brc_crack_patch *patch, int side, const double x[3], double outward[3]);
 /* Distance of x to the patch [m]. */
 double brc_crack_patch_distance(const brc_crack_patch *patch, const double x[3]);
 

@@ -126,6 +126,40 @@ static void over_the_crack_the_nearest_seeds_are_mirror_pairs(void **state)
         }
 }
 
+/* Points of the sides of a rectangle, away from its corners: the nearest seeds inside and beyond must be equally near,
+ * or a face would reach across. */
+static void faces_end_at_the_sides_of_a_rectangle(void **state)
+{
+    const brc_crack notch = {.name = "notch",
+                             .kind = BRC_CRACK_RECTANGLE,
+                             .point = {-0.1, -0.1, 0.47},
+                             .edge = {{0.64, 0.0, 0.0}, {0.0, 1.2, 0.0}},
+                             .flat = true};
+    brc_crack window = notch;
+    window.point[0] = 0.2, window.point[1] = 0.25, window.edge[0][0] = 0.6, window.edge[1][1] = 0.5;
+    for (int inside = 0; inside < 2; ++inside)
+        for (uint64_t seed = 0; seed < 5; ++seed) {
+            seeds s = noisy(10, seed == 2 ? 0.0 : 0.9, seed);
+            const brc_crack *crack = inside ? &window : &notch;
+            mirror_inside(*state, crack, &s);
+            const double at = crack->point[0] + crack->edge[0][0];
+            const double from = inside ? crack->point[1] + 1.5 * s.spacing : 0.0;
+            const double to = inside ? crack->point[1] + crack->edge[1][1] - 1.5 * s.spacing : 1.0;
+            for (int p = 0; p <= 100; ++p) {
+                const double x[3] = {at, from + 0.01 * p * (to - from), 0.47};
+                double side[2] = {HUGE_VAL, HUGE_VAL};
+                for (int64_t e = 0; e < s.n; ++e) {
+                    const double *y = s.position + 3 * e;
+                    const double square =
+                        (x[0] - y[0]) * (x[0] - y[0]) + (x[1] - y[1]) * (x[1] - y[1]) + (x[2] - y[2]) * (x[2] - y[2]);
+                    side[y[0] > at] = fmin(side[y[0] > at], square);
+                }
+                assert_near(side[0], side[1], 1e-15);
+            }
+            brc_memory_free(s.position);
+        }
+}
+
 /* A noisy grid of spread 0.5 keeps half a spacing between its seeds, and so must what mirroring makes of it, but for
  * pushed seeds: a quarter. */
 static void mirroring_keeps_seeds_apart(void **state)
@@ -213,6 +247,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(over_the_crack_the_nearest_seeds_are_mirror_pairs, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(faces_end_at_the_sides_of_a_rectangle, test_begin, test_end),
         cmocka_unit_test_setup_teardown(mirroring_keeps_seeds_apart, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_plane_through_seeds_pushes_them_aside, test_begin, test_end),
         cmocka_unit_test_setup_teardown(flat_cracks_nearer_than_six_spacings_are_warned_of, test_begin, test_end),
