@@ -126,7 +126,7 @@ typedef struct brc_crack {
     double normal[3];  /* disc: any length */
     double radius;     /* disc [m] */
     double edge[2][3]; /* rectangle: the edges from the corner [m] */
-    bool flat;         /* cells: seeds near it are mirrored, so that faces lie in its plane */
+    bool flat;         /* cells: seeds near it are mirrored, so that faces lie in its plane and end at straight sides */
 } brc_crack;
 
 /* Grains: a coarse Voronoi tessellation over the elements; an element belongs to the grain whose centre is nearest. */
