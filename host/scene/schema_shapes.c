@@ -302,7 +302,8 @@ static const brc_entry CRACK[] = {
      .sample = "{rectangle: {corner: [0, 0, 5 mm], edge: [1 cm, 0, 0], other_edge: [0, 2 mm, 0]}}",
      .meaning = "where it is"},
     {"flat", BRC_TYPE_BOOL, FIELD(brc_crack, flat), .given = "true",
-     .meaning = "seeds near it are mirrored, so that its faces lie in its plane and end at the sides of a rectangle; false: it follows the cells"},
+     .meaning = "seeds near it are mirrored, so that its faces lie in its plane and end at the sides of a rectangle; "
+                "false: it follows the cells"},
 };
 const brc_section brc_schema_crack = {.title = "crack",
                                       .meaning = "Bonds that are cut before anything happens.",
