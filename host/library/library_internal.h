@@ -77,7 +77,7 @@ struct breccia_run {
     volatile bool asked_to_stop;
     double begin, stage_begin;     /* brc_clock_s */
     int64_t stage_first;           /* step at which the stage was begun, or taken up */
-    brc_patience patience;         /* hears of iterations */
+    brc_trial_budget budget;       /* hears of iterations */
     brc_assembly assembly;         /* of its own, for reading; n = 0: the state is not there */
     brc_simulation *running;       /* the first part; NULL: the state is not there */
     brc_assembly_sensors *sensors; /* made when they are first asked for */

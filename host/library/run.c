@@ -268,12 +268,12 @@ static bool hear_iteration(void *self)
 
 static brc_status assembled(void *self, const brc_assembly *assembly)
 {
-    enum { BATCH = 256 }; /* as host/solver/run/dynamics.c has without patience */
+    enum { BATCH = 256 }; /* as host/solver/run/dynamics.c has without budget */
     breccia_run *run = self;
     run->assembly = *assembly;
-    run->patience = (brc_patience){.self = run, .over = hear_iteration, .batch = BATCH};
+    run->budget = (brc_trial_budget){.self = run, .over = hear_iteration, .batch = BATCH};
     for (int32_t k = 0; k < assembly->n; ++k)
-        brc_simulation_set_patience(assembly->part[k], &run->patience);
+        brc_simulation_set_trial_budget(assembly->part[k], &run->budget);
     return BRC_OK;
 }
 

@@ -27,7 +27,7 @@ int64_t brc_simulation_planned_bytes(const brc_simulation *simulation);
 
 /* ---- running ---- */
 
-/* Why observers are told that a run could go on from here later. */
+/* Why observers hear that a run could go on from here later. */
 typedef enum brc_pause {
     BRC_PAUSE_GOING,      /* between batches of steps, increments or events; the stage goes on */
     BRC_PAUSE_DONE,       /* the stage ends here, as planned */

@@ -17,7 +17,7 @@ enum { BATCH = 64 };
 typedef struct watch {
     const brc_device_request *request;
     const brc_setup *setup;
-    brc_patience patience;
+    brc_trial_budget budget;
     double begin;
     bool cut;
     const brc_coarse_request *asked;
@@ -100,22 +100,22 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t stag
 {
     watch *w = self;
     const brc_assembly *all = &w->setup->assembly;
-    bool left_off = false;
+    bool stopped_early = false;
     const int64_t step = brc_simulation_step(simulation);
     if (w->part > w->first && step > w->part_step)
         w->out->slower[stage] = (brc_pace_clock_s(w->request) - w->first) / (double)(step - w->first_step) /
                                 ((w->part - w->first) / (double)(w->part_step - w->first_step));
     w->out->iterations[stage] = 0;
     for (int32_t k = 0; k < all->n; ++k) {
-        left_off |= brc_simulation_left_off(all->part[k]);
+        stopped_early |= brc_simulation_stopped_early(all->part[k]);
         w->out->iterations[stage] += brc_simulation_static_report(all->part[k]).iterations;
     }
     if (w->first > 0)
         w->out->done[stage] = (double)step / (double)brc_simulation_planned_steps(
                                                  simulation, stage, brc_simulation_time_step(simulation).value);
-    if (left_off) w->out->iterations[stage] = 0;
-    w->cut |= left_off;
-    w->out->out_of_time |= left_off;
+    if (stopped_early) w->out->iterations[stage] = 0;
+    w->cut |= stopped_early;
+    w->out->out_of_time |= stopped_early;
     return BRC_OK;
 }
 
@@ -161,7 +161,7 @@ static brc_status run(brc_context *context, brc_scene *scene, const brc_device_r
     brc_status status = BRC_OK;
     char folder[BRC_SCRATCH];
     watch w = {.request = request, .setup = &setup, .asked = asked, .out = out};
-    w.patience = (brc_patience){.self = &w, .over = is_over, .batch = asked->whole ? BATCH : 1};
+    w.budget = (brc_trial_budget){.self = &w, .over = is_over, .batch = asked->whole ? BATCH : 1};
     BRC_TRY_OR(cleanup, brc_setup_domains(context, scene, NULL, request->n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_polish(context, request->n_threads, &setup));
     BRC_TRY_OR(cleanup, brc_setup_simulations(context, request, &setup));
@@ -172,7 +172,7 @@ static brc_status run(brc_context *context, brc_scene *scene, const brc_device_r
                    setup.simulation[0],
                    &(brc_observer){.self = &w, .stage_begin = stage_begin, .pause = paused, .stage_end = stage_end}));
     for (int32_t k = 0; k < setup.n; ++k)
-        brc_simulation_set_patience(setup.simulation[k], &w.patience);
+        brc_simulation_set_trial_budget(setup.simulation[k], &w.budget);
     if (asked->whole) {
         BRC_TRY_OR(cleanup, brc_scratch_create(context, folder));
         status = run_recorded(context, &w, folder, out);

@@ -28,7 +28,7 @@ typedef struct watch {
     const brc_device_request *request;
     const brc_setup *setup;
     bool brief;
-    brc_patience patience;
+    brc_trial_budget budget;
     brc_trial_stage *stages;
     brc_trial_stage *now;
     double mark;  /* end of the last stage */
@@ -40,7 +40,7 @@ typedef struct watch {
     int pauses;
     double asked_first, asked_last; /* by solves */
     int64_t asked;
-    double patience_s;
+    double budget_s;
     int64_t state_bytes;             /* of a checkpoint where a stage was cut that would leave one at its end */
     int64_t device_first;            /* bytes at the first pause */
     brc_device_counts counted_first; /* at the first pause of the stage */
@@ -86,8 +86,8 @@ static brc_status stage_begin(void *self, brc_simulation *simulation, int32_t in
     w->output_s = 0;
     w->pauses = 0;
     w->asked = 0;
-    w->patience_s = stage->most_events > 0 ? event_s : solve_s;
-    w->patience.batch = FIRST_BATCH;
+    w->budget_s = stage->most_events > 0 ? event_s : solve_s;
+    w->budget.batch = FIRST_BATCH;
     return BRC_OK;
 }
 
@@ -176,7 +176,7 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
         w->now->launches = (double)(all.launches - w->counted_first.launches) / (double)(step - w->first_step);
         w->now->waits = (double)(all.waits - w->counted_first.waits) / (double)(step - w->first_step);
         w->now->pace_s = (now - w->first - (w->output_s - w->first_output_s)) / (double)(step - w->first_step);
-        if (now - w->last < short_batch_s && w->patience.batch < LARGEST_BATCH) w->patience.batch *= 2;
+        if (now - w->last < short_batch_s && w->budget.batch < LARGEST_BATCH) w->budget.batch *= 2;
     }
     w->last = now;
     if (!w->brief && is_open(brc_simulation_scene(simulation), stage) && is_finishing(w->now, now - w->begin))
@@ -192,7 +192,7 @@ static bool solve_is_over(void *self)
     const double now = clock_of(w);
     if (w->asked++ == 0) w->asked_first = now;
     w->asked_last = now;
-    return now - w->begin > w->patience_s;
+    return now - w->begin > w->budget_s;
 }
 
 static brc_status count_broken(const brc_assembly *all, int64_t *out)
@@ -220,7 +220,7 @@ static brc_status stage_end(void *self, brc_simulation *simulation, int32_t inde
     if (stage->solver == BRC_SOLVER_DYNAMIC || stage->most_events > 0) return BRC_OK;
     for (int32_t k = 0; k < all->n; ++k) {
         w->now->iterations += brc_simulation_static_report(all->part[k]).iterations;
-        w->now->cut |= brc_simulation_left_off(all->part[k]);
+        w->now->cut |= brc_simulation_stopped_early(all->part[k]);
     }
     w->now->pace_s = w->asked > 1 ? (w->asked_last - w->asked_first) / (double)(w->asked - 1) : 0;
     w->now->warm_s = w->now->whole_s - w->now->pace_s * (double)w->now->iterations;
@@ -288,7 +288,7 @@ static brc_status run_in(brc_context *context, const char *folder, watch *w, brc
                                                                                  .stage_end = stage_end,
                                                                                  .pause = paused}));
     for (int32_t k = 0; k < assembly.n; ++k)
-        brc_simulation_set_patience(assembly.part[k], &w->patience);
+        brc_simulation_set_trial_budget(assembly.part[k], &w->budget);
     status = checkpoints ? brc_checkpoints_run(checkpoints) : brc_lockstep_run(assembly.n, assembly.part);
     out->stepping_bytes = brc_memory_peak_since_mark();
     brc_memory_mark();
@@ -332,7 +332,7 @@ brc_status brc_trial_run(brc_context *context, const brc_setup *setup, const brc
     BRC_TRY(BRC_ALLOCATE(context, &out->stages, scene->n_stages, "trial"));
     BRC_TRY(BRC_ALLOCATE(context, &out->measures, scene->n_measures, "trial"));
     watch w = {.request = request, .setup = setup, .brief = brief, .stages = out->stages};
-    w.patience = (brc_patience){.self = &w, .over = solve_is_over, .batch = FIRST_BATCH};
+    w.budget = (brc_trial_budget){.self = &w, .over = solve_is_over, .batch = FIRST_BATCH};
     BRC_TRY(brc_scratch_create(context, folder));
     brc_log_set_level(context, BRC_LOG_ERROR);
     brc_memory_mark();

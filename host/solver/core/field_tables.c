@@ -3,9 +3,26 @@
 #include "../effects/effect.h"
 #include "../models/model.h"
 
-extern const brc_field_table brc_state_fields, brc_geometry_fields, brc_solve_fields, brc_mode_fields, brc_power_fields;
-static const brc_field_table *const of_runs[] = {&brc_state_fields, &brc_geometry_fields, &brc_solve_fields,
-                                                 &brc_mode_fields,  &brc_power_fields,    NULL};
+extern const brc_field_table brc_state_fields, brc_geometry_fields, brc_solve_fields, brc_mode_fields, brc_power_fields,
+    brc_multigrid_fields, brc_multigrid_ground_fields, brc_multigrid_coarsest_fields, brc_multigrid_finest_fields,
+    brc_multigrid_aggregate_fields, brc_multigrid_level_fields, brc_multigrid_matrix_fields,
+    brc_multigrid_transfer_fields, brc_multigrid_start_fields, brc_multigrid_coarse_fields;
+static const brc_field_table *const of_runs[] = {&brc_state_fields,
+                                                 &brc_geometry_fields,
+                                                 &brc_solve_fields,
+                                                 &brc_mode_fields,
+                                                 &brc_power_fields,
+                                                 &brc_multigrid_fields,
+                                                 &brc_multigrid_ground_fields,
+                                                 &brc_multigrid_coarsest_fields,
+                                                 &brc_multigrid_finest_fields,
+                                                 &brc_multigrid_aggregate_fields,
+                                                 &brc_multigrid_level_fields,
+                                                 &brc_multigrid_matrix_fields,
+                                                 &brc_multigrid_transfer_fields,
+                                                 &brc_multigrid_start_fields,
+                                                 &brc_multigrid_coarse_fields,
+                                                 NULL};
 
 /* The k-th of the tables, or NULL and k less by their number. */
 static const brc_field_table *pick(const brc_field_table *const *tables, int *k)

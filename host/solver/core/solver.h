@@ -199,7 +199,7 @@ bool brc_half_kick_is_missing(const brc_simulation *s);
 void brc_half_kick_missing(brc_simulation *s, bool missing);
 bool brc_stage_has_ended(const brc_simulation *s); /* early (stage_end.h) */
 /* Is it time to leave off a trial (trial_budget.h)? Asked once an iteration. */
-bool brc_leaves_off(brc_simulation *s);
+bool brc_trial_is_over(brc_simulation *s);
 
 /* ---- run/motion.c ---- */
 /* Velocities gain kick times force over mass, spins of elements whose bonds turn with them likewise. */

@@ -95,7 +95,7 @@ brc_status brc_store_fields(brc_simulation *simulation, brc_state_store *store, 
 
 /* ---- the whole of a simulation ---- */
 
-/* Keep the state of a simulation that is in a stage, at a moment where observers are told of a pause (simulation.h). */
+/* Keep the state of a simulation that is in a stage, at a moment where observers hear of a pause (simulation.h). */
 brc_status brc_simulation_save_state(brc_simulation *simulation, brc_state_store *store);
 /* Bring a new simulation of the same scene, domain and precision to it; brc_lockstep_continue (lockstep.h) then goes
  * on. BRC_BAD_INPUT: the store is of another simulation. After a failure the simulation may only be freed. */

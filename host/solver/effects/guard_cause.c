@@ -58,15 +58,15 @@ void brc_guard_tell_element(brc_simulation *s, int64_t e, char *text, size_t siz
         brc_text_append(text, size, ", none broken.");
     else
         brc_text_append(text, size, ", %lld of them broken, last:", (long long)broken);
-    int told = 0;
-    for (int64_t k = n - 1; k >= 0 && told < 3; --k) {
+    int listed = 0;
+    for (int64_t k = n - 1; k >= 0 && listed < 3; --k) {
         const brc_break *b = breaks + k;
         if (b->element_i != e && b->element_j != e) continue;
-        brc_text_append(text, size, "%s bond %d to element %d in %s at step %lld", told++ ? "," : "", b->bond,
+        brc_text_append(text, size, "%s bond %d to element %d in %s at step %lld", listed++ ? "," : "", b->bond,
                         b->element_i == e ? b->element_j : b->element_i, brc_break_mode_name(b->mode),
                         (long long)b->step);
     }
-    if (told > 0) brc_text_append(text, size, ".");
+    if (listed > 0) brc_text_append(text, size, ".");
 }
 
 void brc_guard_tell_cause(const brc_simulation *s, int64_t e, double off, char *text, size_t size)

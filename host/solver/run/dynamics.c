@@ -212,7 +212,7 @@ static int64_t next_batch(const brc_simulation *s, int64_t every, int64_t frame_
     if (frame_every && next_multiple(step, frame_every) < until) until = next_multiple(step, frame_every);
     if (look < until) until = look;
     if (until > total) until = total;
-    const int64_t most = s->run->patience ? s->run->patience->batch : BATCH;
+    const int64_t most = s->run->budget ? s->run->budget->batch : BATCH;
     return until - step < most ? until - step : most;
 }
 

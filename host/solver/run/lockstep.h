@@ -9,12 +9,12 @@
 /* Enter the stage with all n parts; in a dynamic one they then share the shortest of their time steps. */
 brc_status brc_lockstep_begin_stage(int32_t n, brc_simulation *const *part, int32_t stage);
 /* As brc_simulation_run, for n >= 1 parts whose scenes have the same stages and output: dynamic stages step together,
- * the increments of static ones and modes are solved one part after the other. Observers of part[0] are told when all
+ * the increments of static ones and modes are solved one part after the other. Observers of part[0] hear when all
  * have arrived, and brc_simulation_interrupt of part[0] stops all; those of the others are not called. A stage ends by
  * kinetic energy when that of all parts together is small. */
 brc_status brc_lockstep_run(int32_t n, brc_simulation *const *part);
 
-/* Leaving off and going on (state_store.h). Save at a pause that observers of part[0] are told of; load into new parts
+/* Leaving off and going on (state_store.h). Save at a pause that observers of part[0] hear of; load into new parts
  * of the same scene; continue what was loaded, from the same store: every later state, sample and frame is the one that
  * the run would have had, bit for bit, on the same device. */
 brc_status brc_lockstep_save(int32_t n, brc_simulation *const *part, brc_state_store *store);

@@ -11,7 +11,7 @@ int64_t brc_look_next(const brc_simulation *s);
 /* Those who wanted this step look: all parts stand at the end of a batch, an increment or an event. previous: the step
  * before which they were asked last. */
 brc_status brc_look_here(brc_simulation *s, int64_t previous);
-/* The same in the midst of a batch. Observers of part[0] are told, as everywhere. */
+/* The same in the midst of a batch. Observers of part[0] hear, as everywhere. */
 brc_status brc_look_within(int32_t n, brc_simulation *const *part, int64_t previous);
 void brc_look_free(brc_simulation *s);
 

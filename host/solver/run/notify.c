@@ -37,10 +37,10 @@ bool brc_simulation_is_to_stop(brc_simulation *s)
     return asked != 0;
 }
 
-bool brc_leaves_off(brc_simulation *s)
+bool brc_trial_is_over(brc_simulation *s)
 {
-    s->run->left_off |= s->run->patience && s->run->patience->over(s->run->patience->self);
-    return s->run->left_off;
+    s->run->stopped_early |= s->run->budget && s->run->budget->over(s->run->budget->self);
+    return s->run->stopped_early;
 }
 
 void brc_simulation_interrupt(brc_simulation *s)
@@ -50,12 +50,12 @@ void brc_simulation_interrupt(brc_simulation *s)
         s->run->others[k]->run->interrupted = 1;
 }
 
-void brc_simulation_set_patience(brc_simulation *s, const brc_patience *patience)
+void brc_simulation_set_trial_budget(brc_simulation *s, const brc_trial_budget *budget)
 {
-    s->run->patience = patience;
+    s->run->budget = budget;
 }
 
-bool brc_simulation_left_off(const brc_simulation *s)
+bool brc_simulation_stopped_early(const brc_simulation *s)
 {
-    return s->run->left_off;
+    return s->run->stopped_early;
 }

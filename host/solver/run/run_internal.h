@@ -42,8 +42,8 @@ struct brc_run {
     int n_observers;
     brc_observer observers[BRC_MOST_OBSERVERS];
     volatile sig_atomic_t interrupted;
-    const brc_patience *patience; /* of a trial; else NULL */
-    bool left_off;                /* in this stage */
+    const brc_trial_budget *budget; /* of a trial; else NULL */
+    bool stopped_early;             /* in this stage */
     brc_simulation *const
         *volatile others; /* [n_others] while they run in step with this one: an interrupt reaches them too */
     volatile int32_t n_others;

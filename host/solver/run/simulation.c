@@ -177,7 +177,7 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     if (s->run->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
     s->run->total_before_stage = before.total;
     BRC_TRY(leave_stage(s));
-    s->run->left_off = false;
+    s->run->stopped_early = false;
     s->run->stage = -1; /* lists of the next stage are not there yet */
     BRC_TRY(brc_initial_apply(s, next));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_ENTER, &(brc_occasion){.stage = next}));

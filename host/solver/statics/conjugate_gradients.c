@@ -73,7 +73,7 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
         brc_progress_update(progress, s->statics->report.iterations);
         if (brc_simulation_is_to_stop(s))
             return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the static solver");
-        if (brc_leaves_off(s)) break;
+        if (brc_trial_is_over(s)) break;
         if (rr < 0.99 * best)
             best = rr, since_best = 0;
         else if (++since_best > 2000)

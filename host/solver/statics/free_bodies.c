@@ -251,8 +251,8 @@ static void tell_part(brc_context *context, const brc_scene *scene, const brc_st
 static brc_status tell_stage(brc_context *context, const brc_scene *scene, const brc_stage *stage, const brc_domain *d,
                              parts *p, bool all)
 {
-    enum { MOST_TOLD = 8 };
-    int64_t n_told = 0;
+    enum { MOST_WARNED = 8 };
+    int64_t n_warned = 0;
     BRC_TRY(begin_motions(context, d, p));
     memset(p->push, 0, (size_t)p->n * sizeof *p->push);
     memset(p->most, 0, (size_t)p->n * sizeof *p->most);
@@ -267,11 +267,11 @@ static brc_status tell_stage(brc_context *context, const brc_scene *scene, const
     push_all(scene, stage, d, p);
     for (int64_t i = 0; i < p->n; ++i) {
         if (p->free[i].n == 0 || p->size[i] < 2) continue; /* single elements without bonds: beams.c */
-        if (n_told++ < MOST_TOLD) tell_part(context, scene, stage, d, p, i, all);
+        if (n_warned++ < MOST_WARNED) tell_part(context, scene, stage, d, p, i, all);
     }
-    if (all && n_told > MOST_TOLD)
+    if (all && n_warned > MOST_WARNED)
         brc_log(context, BRC_LOG_INFO, "stage '%s': %lld more parts are free to move", stage->name,
-                (long long)(n_told - MOST_TOLD));
+                (long long)(n_warned - MOST_WARNED));
     return BRC_OK;
 }
 

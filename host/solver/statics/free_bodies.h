@@ -1,4 +1,4 @@
-/* What a static stage leaves free to move as a whole, told before it runs: no elasticity answers loads that push
+/* What a static stage leaves free to move as a whole, warned of before it runs: no elasticity answers loads that push
  * there. */
 #ifndef BRC_SOLVER_FREE_BODIES_H
 #define BRC_SOLVER_FREE_BODIES_H

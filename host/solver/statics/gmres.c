@@ -102,7 +102,7 @@ static void turn_column(space *q, int k, double *next, double *length)
 static brc_status grow(brc_simulation *s, brc_solve_vectors *v, space *q, double target, int32_t most, int32_t *done,
                        brc_progress *progress, int *k)
 {
-    for (*k = 0; *k < RESTART && *done < most && fabs(q->g[*k]) > target && !brc_leaves_off(s); ++*k, ++*done) {
+    for (*k = 0; *k < RESTART && *done < most && fabs(q->g[*k]) > target && !brc_trial_is_over(s); ++*k, ++*done) {
         double *next = q->basis + (int64_t)(*k + 1) * q->n, length;
         BRC_TRY(precondition(s, v, q->blocks, q->basis + (int64_t)*k * q->n, q->z, s->layout->n_rows));
         BRC_TRY(multiply(s, v, q->z, next, q->n));
@@ -154,7 +154,7 @@ brc_status brc_gmres(brc_simulation *s, brc_solve_vectors *v, double target, int
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, make(s, v, &q));
     double norm = sqrt(dot(q.r, q.r, q.n));
-    for (int32_t done = 0; done < most && norm > target && !brc_simulation_left_off(s);) {
+    for (int32_t done = 0; done < most && norm > target && !brc_simulation_stopped_early(s);) {
         int k;
         for (int64_t i = 0; i < q.n; ++i)
             q.basis[i] = q.r[i] / norm;

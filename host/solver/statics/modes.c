@@ -340,7 +340,7 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         if ((round + 1) % WATCH == 0 &&
             change_since(values, before, m - GUARD_VECTORS) < steady[!s->model->statics->symmetric])
             goto cleanup;
-        if (brc_leaves_off(s)) goto cleanup;
+        if (brc_trial_is_over(s)) goto cleanup;
         if (brc_simulation_is_to_stop(s)) {
             status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
             goto cleanup;
@@ -396,7 +396,7 @@ brc_status brc_modes_run(brc_simulation *s)
     for (int k = 0; k < t.m && s->statics->n_modes < wanted; ++k)
         if (values[k] > rigid_part * values[t.m - 1]) s->statics->modes[s->statics->n_modes++] = sqrt(values[k]);
     if (s->statics->n_modes < wanted &&
-        !brc_simulation_left_off(
+        !brc_simulation_stopped_early(
             s)) /* the rounding of forces in less than double precision grows in the search space */
         BRC_TRY_OR(cleanup,
                    BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,

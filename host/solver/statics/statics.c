@@ -227,7 +227,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         BRC_TRY(correct(s, v, finite));
         BRC_TRY(brc_statics_residual(s, v, finite, &norm));
         s->statics->report.corrections += 1;
-        if (brc_simulation_left_off(s)) break;
+        if (brc_simulation_stopped_early(s)) break;
     }
     s->statics->report.residual = *reference > 0 ? norm / *reference : 0;
     return by->torques ? settle(s, v, progress) : BRC_OK;

@@ -10,7 +10,7 @@
 static const double sphere_depth = 0.1; /* CONTACT_DEPTH of contact_law.h */
 
 /* In static stages and modes surfaces know nothing of each other. */
-static bool sleeps(const brc_simulation *s)
+static bool is_disabled(const brc_simulation *s)
 {
     return brc_simulation_stage(s) >= 0 && brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
 }
@@ -102,7 +102,7 @@ brc_status brc_contact_gradients(brc_simulation *s)
 }
 
 /* No pairs, whatever initial fields brought near before the stage. */
-static brc_status fall_asleep(brc_simulation *s)
+static brc_status disable(brc_simulation *s)
 {
     brc_contact_list *l = &s->contact->now;
     s->contact->due = false;
@@ -113,19 +113,19 @@ static brc_status fall_asleep(brc_simulation *s)
 brc_status brc_contact_restart(brc_simulation *s)
 {
     if (!s->contact) return BRC_OK;
-    if (sleeps(s)) return fall_asleep(s);
+    if (is_disabled(s)) return disable(s);
     BRC_TRY(brc_contact_detach(s));
     return search_soon(s);
 }
 
-/* Bodies that stand in each other by less than is refused; of strikers it was told when they were made
+/* Bodies that stand in each other by less than is refused; of strikers a warning said so when they were made
  * (striker_check.c). */
 static brc_status tell_of_overlap(brc_simulation *s, const brc_ledger *ledger)
 {
     brc_touching now;
     if (brc_strikers_overlap(s) || !(ledger->contact > 0)) return BRC_OK;
     BRC_TRY(brc_simulation_touching(s, &now));
-    if (now.penetration > brc_striker_told_depth(s))
+    if (now.penetration > brc_striker_warned_depth(s))
         brc_log(s->context, BRC_LOG_WARNING,
                 "stage '%s': surfaces overlap as the scene starts, %.0f pairs by up to %.3g m, and hold %.3g J: they "
                 "begin pressed together",
@@ -133,10 +133,10 @@ static brc_status tell_of_overlap(brc_simulation *s, const brc_ledger *ledger)
     return BRC_OK;
 }
 
-brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger)
+brc_status brc_contact_enable(brc_simulation *s, const brc_ledger *ledger)
 {
     static const double little = 1e-6; /* of the elastic energy: what a thousandth of its strains can press together */
-    if (!s->contact || brc_simulation_stage(s) < 0 || sleeps(s)) return BRC_OK;
+    if (!s->contact || brc_simulation_stage(s) < 0 || is_disabled(s)) return BRC_OK;
     if (brc_simulation_stage(s) == 0) return tell_of_overlap(s, ledger);
     const brc_stage *before = s->scene->stages + brc_simulation_stage(s) - 1;
     if (before->solver == BRC_SOLVER_DYNAMIC || !(ledger->contact > little * ledger->elastic)) return BRC_OK;
@@ -319,7 +319,7 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
         BRC_TRY(
             brc_strikers_advance(s, -half_kick, 0, 0, false)); /* ... and the next one opens with what is there now */
     BRC_TRY(brc_contact_stored(s, &after));
-    c->born += after - before;
+    c->energy_from_breaks += after - before;
     return BRC_OK;
 }
 
@@ -341,7 +341,7 @@ brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger)
     ledger->kinetic += spin;
     BRC_TRY(brc_vector_sum(s, s->contact->lost_friction, n, &ledger->friction));
     BRC_TRY(brc_vector_sum(s, s->contact->lost_impact, n, &ledger->impact));
-    ledger->fracture -= s->contact->born; /* what a break leaves in the surfaces it did not take away */
+    ledger->fracture -= s->contact->energy_from_breaks; /* what a break leaves in the surfaces it did not take away */
     return BRC_OK;
 }
 

@@ -18,8 +18,8 @@ void brc_contact_free(brc_simulation *s);
 /* Elements were moved by hand or a stage begins: look for pairs again. */
 brc_status brc_contact_restart(brc_simulation *s);
 /* The forces of the start of a stage are there, with this ledger: BRC_BAD_INPUT if the static stage before it has
- * pressed surfaces into each other; told if they overlap as the run begins. */
-brc_status brc_contact_wakes(brc_simulation *s, const brc_ledger *ledger);
+ * pressed surfaces into each other; warned of if they overlap as the run begins. */
+brc_status brc_contact_enable(brc_simulation *s, const brc_ledger *ledger);
 /* Steps until the next look at how far things moved ... */
 int64_t brc_contact_next_look(const brc_simulation *s);
 /* ... and until the first that cannot be put off to the end of a stretch of steps (../fracture/ahead.h), as the looks

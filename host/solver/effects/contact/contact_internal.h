@@ -81,7 +81,7 @@ struct brc_contact_state {
     int32_t n_todo;
     bool always_whole; /* for comparison: look for all pairs after breaks, and let openings follow by evaluations of
                           all */
-    double born;       /* energy that surfaces held when their bond broke [J] */
+    double energy_from_breaks; /* energy that surfaces held when their bond broke [J] */
 };
 
 /* ---- contact_fields.c ---- */

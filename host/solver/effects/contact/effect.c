@@ -12,7 +12,7 @@ static bool in(const brc_wants *w)
 }
 static brc_status started(brc_simulation *s, const brc_occasion *now)
 {
-    return brc_contact_wakes(s, now->ledger);
+    return brc_contact_enable(s, now->ledger);
 }
 static brc_status turn(brc_simulation *s, const brc_occasion *now)
 {

@@ -122,5 +122,5 @@ brc_status brc_contact_store_state(brc_simulation *s, brc_state_store *store)
     BRC_TRY(brc_store_integer(store, "contact.searches", &c->searches));
     BRC_TRY(brc_store_double(store, "contact.n_rigid", &c->n_rigid));
     if (store->loading) BRC_TRY(brc_contact_list_bonded(s));
-    return brc_store_double(store, "contact.born", &c->born);
+    return brc_store_double(store, "contact.born", &c->energy_from_breaks);
 }

@@ -5,9 +5,9 @@
 #include <string.h>
 
 /* Shares of the mean spacing: a striker this deep in a body is refused, since it would start with the energy of an
- * explosion; one that is less deep by this much is told of, and below that is the rounding of places. Spheres of a
+ * explosion; one that is less deep by this much is warned of, and below that is the rounding of places. Spheres of a
  * packing stand out of its walls by about a hundredth of their radius. */
-static const double refused_depth = 0.05, told_depth = 1e-6, told_depth_of_spheres = 0.02;
+static const double refused_depth = 0.05, warned_depth = 1e-6, warned_depth_of_spheres = 0.02;
 
 void brc_deepen(brc_overlap *deepest, double depth, int64_t element, const double x[3])
 {
@@ -152,9 +152,9 @@ double brc_striker_refused_depth(const brc_simulation *s)
 {
     return refused_depth * s->domain->quality.mean_spacing;
 }
-double brc_striker_told_depth(const brc_simulation *s)
+double brc_striker_warned_depth(const brc_simulation *s)
 {
-    return (s->domain->element_kind == BRC_ELEMENT_SPHERE ? told_depth_of_spheres : told_depth) *
+    return (s->domain->element_kind == BRC_ELEMENT_SPHERE ? warned_depth_of_spheres : warned_depth) *
            s->domain->quality.mean_spacing;
 }
 
@@ -162,7 +162,7 @@ brc_status brc_striker_stands_in(brc_simulation *s, int32_t i, const brc_overlap
 {
     const brc_striker *striker = s->scene->strikers + i;
     const double *x = found->place;
-    if (!(found->depth > brc_striker_told_depth(s))) return BRC_OK;
+    if (!(found->depth > brc_striker_warned_depth(s))) return BRC_OK;
     const int32_t owner = s->domain->body[found->element];
     const char *body = s->scene->bodies[owner < s->scene->n_bodies ? owner : 0].name;
     if (found->depth > brc_striker_refused_depth(s))
@@ -172,12 +172,12 @@ brc_status brc_striker_stands_in(brc_simulation *s, int32_t i, const brc_overlap
                         striker->name, found->first ? "at least " : "", found->depth, body,
                         found->first ? "at" : "deepest at", x[0], x[1], x[2], s->domain->quality.mean_spacing,
                         striker->is_plane ? ", or turn the normal, which points out of the wall" : "");
-    if (!s->strikers->told[i])
+    if (!s->strikers->warned[i])
         brc_log(s->context, BRC_LOG_WARNING,
                 "striker '%s' stands %.4g m deep in body '%s' as the scene starts, at (%.6g, %.6g, %.6g) m: they begin "
                 "pressed together",
                 striker->name, found->depth, body, x[0], x[1], x[2]);
-    s->strikers->told[i] = true;
+    s->strikers->warned[i] = true;
     return BRC_OK;
 }
 

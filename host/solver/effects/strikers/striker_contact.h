@@ -28,7 +28,7 @@ void brc_contact_check_speed(const brc_simulation *s);
 /* Whether a warning said that a striker stands in a body a little as the scene starts. */
 bool brc_strikers_overlap(const brc_simulation *s);
 /* Depth beyond which an overlap is warned of [m]. */
-double brc_striker_told_depth(const brc_simulation *s);
+double brc_striker_warned_depth(const brc_simulation *s);
 /* The same check where no corner tells: an edge of either goes through the other (striker_through.c). `cells`: those of
  * the domain. Bodies of spheres, which have no edges, and planes need none. */
 brc_status brc_strikers_check_edges(brc_simulation *s, const brc_convex *cells);

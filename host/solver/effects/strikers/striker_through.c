@@ -71,7 +71,7 @@ static void look_along_edges(const brc_simulation *s, const brc_convex *cells, i
                 half += 0.25 * (a[c] - b[c]) * (a[c] - b[c]);
             }
             if (sqrt(near) > sqrt(half) + through->radius[q] ||
-                !middle_within(through, q, a, b, brc_striker_told_depth(s), x))
+                !middle_within(through, q, a, b, brc_striker_warned_depth(s), x))
                 continue;
             for (int c = 0; c < 3; ++c)
                 x[c] += origin[c];

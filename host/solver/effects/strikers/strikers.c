@@ -138,7 +138,7 @@ brc_status brc_strikers_create(brc_simulation *s)
     t->n = s->scene->n_strikers;
     BRC_TRY(BRC_ALLOCATE(s->context, &t->body, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->placed, t->n, "strikers"));
-    BRC_TRY(BRC_ALLOCATE(s->context, &t->told, t->n, "strikers"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &t->warned, t->n, "strikers"));
     BRC_TRY(BRC_ALLOCATE(s->context, &t->push_now, N_PUSH * (int64_t)t->n, "strikers"));
     for (int32_t i = 0; i < t->n; ++i)
         BRC_TRY(brc_striker_body_make(s, i));
@@ -168,7 +168,7 @@ void brc_strikers_free(brc_simulation *s)
     brc_memory_free(t->piece_radius);
     brc_memory_free(t->body);
     brc_memory_free(t->placed);
-    brc_memory_free(t->told);
+    brc_memory_free(t->warned);
     brc_memory_free(t->push_now);
     brc_memory_free(t);
     s->strikers = NULL;
@@ -199,7 +199,7 @@ brc_status brc_strikers_set_load(brc_simulation *s, const double *load)
 bool brc_strikers_overlap(const brc_simulation *s)
 {
     for (int32_t i = 0; s->strikers && i < s->strikers->n; ++i)
-        if (s->strikers->told[i]) return true;
+        if (s->strikers->warned[i]) return true;
     return false;
 }
 

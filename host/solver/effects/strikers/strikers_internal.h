@@ -7,7 +7,7 @@
 
 typedef struct brc_strikers brc_strikers;
 
-/* Everything that exists only in scenes with strikers. What the buffers of numbers hold is told in
+/* Everything that exists only in scenes with strikers. What the buffers of numbers hold is said in
  * strikers.cl. */
 struct brc_strikers {
     int32_t n;
@@ -18,7 +18,7 @@ struct brc_strikers {
     int32_t *piece_striker;     /* [convex.n] whose each is; host */
     brc_piece_kind *piece_kind; /* [convex.n] host */
     double *piece_radius;       /* [convex.n] of spheres, else 0 [m]; host */
-    bool *told;                 /* [n] that it stands in a body a little as the scene starts; host */
+    bool *warned;               /* [n] that it stands in a body a little as the scene starts; host */
     double *placed;             /* [n] driven: integral of the table up to where they are placed now [s]; host */
     /* for contact */
     brc_buffer *pose;   /* [n][12] place of the mass centre, rotation matrix by rows: now */

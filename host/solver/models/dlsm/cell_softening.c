@@ -336,7 +336,7 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
     softening_faces *f = faces_of(s);
     brc_buffer *found = brc_cell_breaks_array(s, "found");
     const int32_t n = s->layout->n_rows;
-    double wished, brittle = 0;
+    double candidates, brittle = 0;
     *n_ended = 0;
     if (f->any) { /* what opened before this step */
         BRC_TRY(measure(s, 1));
@@ -347,8 +347,8 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
                     {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
                     {"slope", BRC_COEFF(sin(s->scene->fracture.friction))},
                     {"shear_least", BRC_COEFF(f->shear_least)}));
-    BRC_TRY(brc_vector_sum(s, found, n, &wished));
-    if (wished > 0) {
+    BRC_TRY(brc_vector_sum(s, found, n, &candidates));
+    if (candidates > 0) {
         f->any = true;
         BRC_TRY(BRC_RUN(f->begin, n, {"friction", BRC_COEFF(friction_of(s))}));
         BRC_TRY(brc_vector_sum(s, found, n, &brittle));

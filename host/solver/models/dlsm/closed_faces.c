@@ -27,14 +27,14 @@ static closed_faces *faces_of(const brc_simulation *s)
 }
 
 /* In static stages and modes the sides know nothing of each other, as other surfaces (contact.c). */
-static bool sleeps(const brc_simulation *s)
+static bool is_disabled(const brc_simulation *s)
 {
     return brc_simulation_stage(s) < 0 || brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
 }
 static bool acts(const brc_simulation *s, const brc_force_request *r)
 {
     const closed_faces *f = faces_of(s);
-    return f && f->any && !sleeps(s) && !r->homogeneous && r->displacement == brc_displacement_of(s);
+    return f && f->any && !is_disabled(s) && !r->homogeneous && r->displacement == brc_displacement_of(s);
 }
 
 static double friction_of(const brc_simulation *s)
@@ -191,7 +191,7 @@ brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r,
 brc_status brc_closed_faces_keep(brc_simulation *s)
 {
     closed_faces *f = faces_of(s);
-    if (!f || sleeps(s)) return BRC_OK;
+    if (!f || is_disabled(s)) return BRC_OK;
     f->any = true;
     return brc_pass_run(f->keep, s->n_groups);
 }
@@ -199,14 +199,14 @@ brc_status brc_closed_faces_keep(brc_simulation *s)
 brc_status brc_closed_faces_look(brc_simulation *s)
 {
     const closed_faces *f = faces_of(s);
-    if (!f || sleeps(s)) return BRC_OK;
+    if (!f || is_disabled(s)) return BRC_OK;
     return BRC_RUN(f->probe_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))});
 }
 
 brc_status brc_closed_faces_change(brc_simulation *s, double half_kick)
 {
     const closed_faces *f = faces_of(s);
-    if (!f || sleeps(s)) return BRC_OK;
+    if (!f || is_disabled(s)) return BRC_OK;
     BRC_TRY(BRC_RUN(f->again, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"friction", BRC_COEFF(friction_of(s))}));
     return BRC_RUN(f->delta_pass, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"half_kick", BRC_STATE(half_kick)});
 }
@@ -224,7 +224,7 @@ brc_status brc_closed_faces_stored(brc_simulation *s, double *out)
     const closed_faces *f = faces_of(s);
     const int32_t n = s->layout->n_rows;
     *out = 0;
-    if (!f || !f->any || sleeps(s)) return BRC_OK;
+    if (!f || !f->any || is_disabled(s)) return BRC_OK;
     BRC_TRY(brc_pass_run(f->energy, n));
     return brc_vector_sum(s, brc_kinetic_of(s), n, out);
 }

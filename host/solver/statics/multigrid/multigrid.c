@@ -74,33 +74,21 @@ static brc_status make_passes(brc_multigrid *m)
     return BRC_OK;
 }
 
-static brc_status new_unknowns(brc_simulation *s, brc_unknowns *out, int64_t n)
-{
-    BRC_TRY(brc_new_state(s, &out->move, 3 * n, "multigrid"));
-    return brc_new_state(s, &out->turn, 3 * n, "multigrid");
-}
-
-static brc_status new_uploaded_state(brc_simulation *s, brc_buffer **out, const double *values, int64_t count)
-{
-    BRC_TRY(brc_new_state(s, out, count, "multigrid"));
-    return brc_upload_state(s, *out, values, count);
-}
-
 /* Integers that the host has wider. */
-static brc_status new_narrowed(brc_simulation *s, brc_buffer **out, const int64_t *values, int64_t count)
+static brc_status upload_narrowed(brc_simulation *s, brc_buffer *out, const int64_t *values, int64_t count)
 {
     int32_t *narrow = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "multigrid"));
     for (int64_t i = 0; i < count; ++i)
         narrow[i] = (int32_t)values[i];
-    const brc_status status = brc_new_int(s, out, narrow, count, "multigrid");
+    const brc_status status = brc_upload_int(out, narrow, count);
     brc_memory_free(narrow);
     return status;
 }
 
 /* Integers by element to rows; padding: fill. */
-static brc_status new_rows(brc_simulation *s, brc_buffer **out, const int32_t *of_element, const uint8_t *bits,
-                           int32_t fill)
+static brc_status upload_rows(brc_simulation *s, brc_buffer *out, const int32_t *of_element, const uint8_t *bits,
+                              int32_t fill)
 {
     const brc_layout *layout = s->layout;
     int32_t *rows = NULL;
@@ -109,7 +97,7 @@ static brc_status new_rows(brc_simulation *s, brc_buffer **out, const int32_t *o
         const int32_t e = layout->element_of_row[r];
         rows[r] = e < 0 ? fill : of_element ? of_element[e] : bits[e];
     }
-    const brc_status status = brc_new_int(s, out, rows, layout->n_rows, "multigrid");
+    const brc_status status = brc_upload_int(out, rows, layout->n_rows);
     brc_memory_free(rows);
     return status;
 }
@@ -122,8 +110,8 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
     int32_t *rows = NULL;
     brc_status status = BRC_OK;
     m->moduli = f->moduli[s->material_of_element[0]];
-    if (brc_solves_rotations(s->model))
-        return brc_new_state(s, &m->orientation, 4 * (int64_t)s->layout->n_rows, "multigrid");
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_fields, 0, m));
+    if (brc_solves_rotations(s->model)) return BRC_OK;
     if (brc_device_has_many_materials(s->device)) {
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &moduli, 3 * (int64_t)s->layout->n_rows, "multigrid"));
         for (int32_t r = 0; r < s->layout->n_rows; ++r) {
@@ -132,7 +120,6 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
             moduli[3 * (int64_t)r] = k->axial, moduli[3 * (int64_t)r + 1] = k->shear,
                        moduli[3 * (int64_t)r + 2] = k->frame;
         }
-        BRC_TRY_OR(cleanup, brc_new_coeff(s, &m->moduli_of, 3 * (int64_t)s->layout->n_rows, "multigrid"));
         BRC_TRY_OR(cleanup, brc_upload_coeff(s, m->moduli_of, moduli, 3 * (int64_t)s->layout->n_rows));
     }
     m->n_ground = f->n_ground;
@@ -140,8 +127,9 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
         BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, f->n_ground, "multigrid"));
         for (int32_t i = 0; i < f->n_ground; ++i)
             rows[i] = s->layout->row_of_element[f->ground_element[i]];
-        BRC_TRY_OR(cleanup, brc_new_int(s, &m->ground_element, rows, f->n_ground, "multigrid"));
-        BRC_TRY_OR(cleanup, new_uploaded_state(s, &m->ground, f->ground[0], 36 * (int64_t)f->n_ground)); /* symmetric */
+        BRC_TRY_OR(cleanup, brc_multigrid_list(s, &brc_multigrid_ground_fields, f->n_ground, m));
+        BRC_TRY_OR(cleanup, brc_upload_int(m->ground_element, rows, f->n_ground));
+        BRC_TRY_OR(cleanup, brc_upload_state(s, m->ground, f->ground[0], 36 * (int64_t)f->n_ground)); /* symmetric */
     }
 cleanup:
     brc_memory_free(moduli);
@@ -156,13 +144,9 @@ static brc_status upload_finest(brc_multigrid *m, const brc_fine *f, const doubl
     brc_level *l = &m->level[0];
     l->n = s->layout->n_rows;
     BRC_TRY(upload_bonds(m, f));
-    BRC_TRY(brc_new_state(s, &l->inverse, 21 * l->n, "multigrid"));
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_finest_fields, 0, l));
     BRC_TRY(brc_state_to_rows(s, l->inverse, inverse[0], 21, 0));
-    BRC_TRY(new_rows(s, &l->free_bits, NULL, f->nodes.free_bits, 0));
-    BRC_TRY(new_unknowns(s, &l->left, l->n));
-    BRC_TRY(new_unknowns(s, &l->step, l->n));
-    BRC_TRY(new_unknowns(s, &l->right, l->n));
-    return new_unknowns(s, &l->x, l->n);
+    return upload_rows(s, l->free_bits, NULL, f->nodes.free_bits, 0);
 }
 
 static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, const int32_t *aggregate,
@@ -173,7 +157,8 @@ static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, co
     int32_t *start = NULL, *member = NULL;
     double *arm = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, new_rows(s, &l->aggregate, aggregate, NULL, -1));
+    BRC_TRY_OR(cleanup, brc_multigrid_list(s, &brc_multigrid_aggregate_fields, coarse->n, l));
+    BRC_TRY_OR(cleanup, upload_rows(s, l->aggregate, aggregate, NULL, -1));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &start, coarse->n + 2, "multigrid"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, nodes->n, "multigrid"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arm, 3 * (int64_t)s->layout->n_rows, "multigrid"));
@@ -187,9 +172,8 @@ static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, co
         for (int c = 0; c < 3; ++c)
             arm[3 * (int64_t)s->layout->row_of_element[e] + c] = nodes->place[e][c] - coarse->place[aggregate[e]][c];
     }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &l->member_start, start, coarse->n + 1, "multigrid"));
-    BRC_TRY_OR(cleanup, brc_new_int(s, &l->member, member, nodes->n, "multigrid"));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &l->arm, 3 * (int64_t)s->layout->n_rows, "multigrid"));
+    BRC_TRY_OR(cleanup, brc_upload_int(l->member_start, start, coarse->n + 1));
+    BRC_TRY_OR(cleanup, brc_upload_int(l->member, member, nodes->n));
     BRC_TRY_OR(cleanup, brc_upload_coeff(s, l->arm, arm, 3 * (int64_t)s->layout->n_rows));
 cleanup:
     brc_memory_free(start);
@@ -199,15 +183,14 @@ cleanup:
 }
 
 /* Blocks [count][6][6] to those of a device buffer, each by columns. */
-static brc_status new_blocks(brc_simulation *s, brc_buffer **out, int64_t count, const brc_block *wide,
-                             const brc_narrow *narrow)
+static brc_status upload_blocks(brc_simulation *s, brc_buffer *out, int64_t count, const brc_block *wide,
+                                const brc_narrow *narrow)
 {
     enum { CHUNK = 4096 };
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     double *part = NULL;
     float *single = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_new_state(s, out, 36 * count, "multigrid"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &part, 36 * CHUNK, "multigrid"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &single, 36 * CHUNK, "multigrid"));
     for (int64_t first = 0; first < count; first += CHUNK) {
@@ -219,7 +202,7 @@ static brc_status new_blocks(brc_simulation *s, brc_buffer **out, int64_t count,
                     part[36 * k + 6 * c + r] = value;
                     single[36 * k + 6 * c + r] = (float)value;
                 }
-        BRC_TRY_OR(cleanup, brc_buffer_write(*out, 36 * first * bytes,
+        BRC_TRY_OR(cleanup, brc_buffer_write(out, 36 * first * bytes,
                                              bytes == 8 ? (const void *)part : (const void *)single, 36 * n * bytes));
     }
 cleanup:
@@ -230,25 +213,27 @@ cleanup:
 
 static brc_status upload_prolongation(brc_simulation *s, brc_level *l, const brc_prolongation *p)
 {
-    BRC_TRY(new_narrowed(s, &l->p_start, p->start, p->n + 1));
-    BRC_TRY(brc_new_int(s, &l->p_column, p->column, p->start[p->n], "multigrid"));
-    BRC_TRY(new_blocks(s, &l->p_block, p->start[p->n], NULL, (const brc_narrow *)p->block));
-    BRC_TRY(new_narrowed(s, &l->p_column_start, p->column_start, p->n_coarse + 1));
-    return brc_new_int(s, &l->p_entry, p->entry[0], 2 * p->start[p->n], "multigrid");
+    const int64_t n = p->start[p->n];
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_start_fields, p->n, l));
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_coarse_fields, p->n_coarse, l));
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_transfer_fields, n, l));
+    BRC_TRY(upload_narrowed(s, l->p_start, p->start, p->n + 1));
+    BRC_TRY(brc_upload_int(l->p_column, p->column, n));
+    BRC_TRY(upload_blocks(s, l->p_block, n, NULL, (const brc_narrow *)p->block));
+    BRC_TRY(upload_narrowed(s, l->p_column_start, p->column_start, p->n_coarse + 1));
+    return brc_upload_int(l->p_entry, p->entry[0], 2 * n);
 }
 
 static brc_status upload_matrix(brc_simulation *s, brc_level *l, const brc_stored_rows *rows,
                                 const double (*inverse)[21])
 {
     l->n = rows->n;
-    BRC_TRY(new_narrowed(s, &l->start, rows->start, rows->n + 1));
-    BRC_TRY(brc_new_int(s, &l->column, rows->column, rows->start[rows->n], "multigrid"));
-    BRC_TRY(new_blocks(s, &l->block, rows->start[rows->n], (const brc_block *)rows->block, NULL));
-    BRC_TRY(new_uploaded_state(s, &l->inverse, inverse[0], 21 * rows->n));
-    BRC_TRY(new_unknowns(s, &l->right, rows->n));
-    BRC_TRY(new_unknowns(s, &l->x, rows->n));
-    BRC_TRY(new_unknowns(s, &l->left, rows->n));
-    return new_unknowns(s, &l->step, rows->n);
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_level_fields, rows->n, l));
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_matrix_fields, rows->start[rows->n], l));
+    BRC_TRY(upload_narrowed(s, l->start, rows->start, rows->n + 1));
+    BRC_TRY(brc_upload_int(l->column, rows->column, rows->start[rows->n]));
+    BRC_TRY(upload_blocks(s, l->block, rows->start[rows->n], (const brc_block *)rows->block, NULL));
+    return brc_upload_state(s, l->inverse, inverse[0], 21 * rows->n);
 }
 
 /* Two thirds of the way of a step that the stiffest direction bears just so. given: 0, or the weight. */
@@ -272,7 +257,8 @@ static brc_status solve_coarsest(brc_multigrid *m, const brc_stored_rows *rows)
     if (rows->n > MOST_SOLVED) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &inverse, 36 * rows->n * rows->n, "coarsest level"));
     brc_status status = brc_invert_rows(s->context, rows, inverse, &done);
-    if (status == BRC_OK && done) status = new_uploaded_state(s, &m->inverse, inverse, 36 * rows->n * rows->n);
+    if (status == BRC_OK && done) status = brc_multigrid_list(s, &brc_multigrid_coarsest_fields, rows->n * rows->n, m);
+    if (status == BRC_OK && done) status = brc_upload_state(s, m->inverse, inverse, 36 * rows->n * rows->n);
     brc_memory_free(inverse);
     return status;
 }
@@ -393,19 +379,7 @@ void brc_multigrid_free(brc_multigrid **multigrid)
 {
     brc_multigrid *m = *multigrid;
     if (!m) return;
-    for (int i = 0; i < BRC_MOST_LEVELS; ++i) {
-        brc_level *l = &m->level[i];
-        brc_buffer **all[] = {
-            &l->inverse,      &l->start,    &l->column,    &l->block,          &l->right.move, &l->right.turn,
-            &l->x.move,       &l->x.turn,   &l->left.move, &l->left.turn,      &l->step.move,  &l->step.turn,
-            &l->p_start,      &l->p_column, &l->p_block,   &l->p_column_start, &l->p_entry,    &l->aggregate,
-            &l->member_start, &l->member,   &l->arm,       &l->free_bits};
-        for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
-            brc_buffer_free(all[k]);
-    }
-    brc_buffer **rest[] = {&m->inverse, &m->moduli_of, &m->ground_element, &m->ground, &m->orientation};
-    for (size_t k = 0; k < sizeof rest / sizeof *rest; ++k)
-        brc_buffer_free(rest[k]);
+    brc_multigrid_fields_free(m);
     brc_passes_free(&m->pass.all);
     brc_memory_free(m);
     *multigrid = NULL;

@@ -51,4 +51,12 @@ brc_status brc_level_step(brc_multigrid *m, int level, double weight, bool add, 
 /* Largest eigenvalue of D^-1 A, from below, to some percent. */
 brc_status brc_level_stiffest(brc_multigrid *m, int level, double *out);
 
+/* ---- multigrid_fields.c ---- */
+extern const brc_field_table brc_multigrid_fields, brc_multigrid_ground_fields, brc_multigrid_coarsest_fields,
+    brc_multigrid_finest_fields, brc_multigrid_aggregate_fields, brc_multigrid_level_fields,
+    brc_multigrid_matrix_fields, brc_multigrid_transfer_fields, brc_multigrid_start_fields, brc_multigrid_coarse_fields;
+/* Room for a table of n things. */
+brc_status brc_multigrid_list(brc_simulation *s, const brc_field_table *table, int64_t n, void *owner);
+void brc_multigrid_fields_free(brc_multigrid *m);
+
 #endif
