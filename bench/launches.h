@@ -2,8 +2,9 @@
  * and device; and what that is worth by a model of the device, seconds = launches x launch + waits x wait + least bytes
  * / bandwidth, whose constants are measured here, and for a card given in docs/notebook/devices.md. The bandwidth is
  * that of a copy of as many bytes as the step moves or, where arithmetic takes longer, as on a CPU, what the passes of
- * a small elastic body reach in cache. One thread: processor seconds. Noisy-grid cubes and packings as of `bench
- * throughput`: elastic, with fracture and contact where nothing breaks and nothing is near. */
+ * a small elastic body reach in cache. Constants and steps are measured by turns, and the turn in the middle counts.
+ * One thread: processor seconds. Noisy-grid cubes and packings as of `bench throughput`: elastic, with fracture and
+ * contact where nothing breaks and nothing is near. */
 #ifndef BRC_BENCH_LAUNCHES_H
 #define BRC_BENCH_LAUNCHES_H
 

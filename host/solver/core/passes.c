@@ -12,8 +12,9 @@ typedef struct parameter {
     brc_value_kind value;
     brc_arg_kind argument;
     brc_use use;
-    const char *fixed; /* FROM_FIXED: where it stands */
-    size_t at;         /* FROM_REQUEST, FROM_ITEM: in the owner */
+    const char *fixed;            /* FROM_FIXED: where it stands */
+    size_t at;                    /* FROM_REQUEST, FROM_ITEM: in the owner */
+    const brc_field_table *table; /* that it is a field of; NULL: it is none */
     char name[NAME_BYTES];
 } parameter;
 
@@ -40,6 +41,7 @@ static bool find_in(const brc_scope *scope, const char *name, parameter *out)
             if (strcmp(scope->tables[t]->fields[k].name, name) == 0) {
                 out->value = BRC_VALUE_BUFFER;
                 out->at = scope->tables[t]->fields[k].at;
+                out->table = scope->tables[t];
                 return true;
             }
     return false;
@@ -279,16 +281,24 @@ brc_status brc_pass_run_on(const brc_pass *pass, int64_t n_items, const void *re
 
 /* ---- the floor ---- */
 
-static const brc_field_row *wanted_row(const brc_field_table *const *tables, const char *name, const brc_wants *wants)
+static const brc_field_row *wanted_row(const brc_field_table *table, const char *name, const brc_wants *wants)
 {
-    for (; *tables; ++tables) {
-        if ((*tables)->wanted && !(*tables)->wanted(wants)) continue;
-        for (int k = 0; k < (*tables)->n; ++k) {
-            const brc_field_row *row = (*tables)->fields + k;
-            if (strcmp(row->name, name) == 0 && (!row->wanted || row->wanted(wants))) return row;
-        }
+    if (table->wanted && !table->wanted(wants)) return NULL;
+    for (int k = 0; k < table->n; ++k) {
+        const brc_field_row *row = table->fields + k;
+        if (strcmp(row->name, name) == 0 && (!row->wanted || row->wanted(wants))) return row;
     }
     return NULL;
+}
+
+/* The row of an array: of its own table, or, where a value of a scope stands in for it, of the first that has one. */
+static const brc_field_row *row_of(const parameter *p, const brc_field_table *const *tables, const brc_wants *wants)
+{
+    const brc_field_row *row = NULL;
+    if (p->table) return wanted_row(p->table, p->name, wants);
+    for (; *tables && !row; ++tables)
+        row = wanted_row(*tables, p->name, wants);
+    return row;
 }
 
 static double bytes_of(const brc_field_row *row, const brc_wants *wants)
@@ -309,7 +319,7 @@ double brc_pass_floor(const brc_pass *pass, const brc_wants *wants, const brc_fi
     for (int k = 0; k < pass->n; ++k) {
         const parameter *p = pass->of + k;
         const brc_field_row *row =
-            p->use == BRC_USE_VALUE || has_word(unread, p->name) ? NULL : wanted_row(tables, p->name, wants);
+            p->use == BRC_USE_VALUE || has_word(unread, p->name) ? NULL : row_of(p, tables, wants);
         if (row) sum += (p->use == BRC_USE_UPDATE ? 2 : 1) * bytes_of(row, wants);
     }
     return sum;

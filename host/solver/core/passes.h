@@ -45,8 +45,9 @@ void brc_passes_free(brc_pass **list);
 brc_status brc_passes_rings(int n, const brc_pass *const *passes, const char *seeds, int *rings);
 
 /* The least that a launch over all elements moves to and from memory [B]: each array once, by its marker, where it has
- * numbers of elements or half-edges; padding does not count. tables: where its names are looked up, ends with NULL; the
- * first row that is wanted counts. unread: names (apart by spaces) that this run does not read; NULL: none. */
+ * numbers of elements or half-edges; padding does not count. tables: where names of buffers that are no fields of its
+ * scopes are looked up, ends with NULL; the first row that is wanted counts. unread: names (apart by spaces) that this
+ * run does not read; NULL: none. */
 double brc_pass_floor(const brc_pass *pass, const brc_wants *wants, const brc_field_table *const *tables,
                       const char *unread);
 

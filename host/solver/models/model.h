@@ -120,7 +120,7 @@ typedef struct brc_model_step_bound {
 } brc_model_step_bound;
 
 /* A pass of a step, and names (apart by spaces) that it does not read in this run; NULL: none. */
-enum { BRC_STEP_PASSES = 6 };
+enum { BRC_STEP_PASSES = 8 };
 typedef struct brc_step_pass {
     const struct brc_pass *pass;
     const char *unread;
@@ -151,7 +151,8 @@ typedef struct brc_bond_model {
     /* Of cells that may open against a cohesion: gradients, stresses and fluxes as the state has them, around a list or
      * (NULL) of all; moved: gradients of ring 2 too. */
     brc_status (*fluxes_of_state)(struct brc_simulation *s, const struct brc_ring_list *list, bool moved);
-    /* The passes of a step, for the least that it must move (brc_simulation_floor_bytes); returns how many. */
+    /* The passes of a step in which nothing breaks, for the least that it must move (brc_simulation_floor_bytes);
+     * returns how many. */
     int (*step_passes)(const struct brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES]);
 
     /* Of every element [n_elements][6] xx yy zz yz xz xy, each may be NULL; of faces [n][3]. */

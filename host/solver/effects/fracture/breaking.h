@@ -22,6 +22,9 @@ int64_t brc_fracture_moment(const brc_simulation *s);
 brc_status brc_fracture_begin_event(brc_simulation *s);
 /* After the forces of a step: break what fails. half_kick: as in fracture.cl. */
 brc_status brc_fracture_step(brc_simulation *s, double half_kick);
+/* Passes of a step of criteria of elements where nothing is near its limit, beside the forces (model.h), into out;
+ * returns how many. */
+int brc_fracture_step_passes(const brc_simulation *s, brc_step_pass *out);
 /* Unbroken half-edges of the domain [n_half_edges] (1, else 0); *out is the caller's (brc_memory_free). */
 brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out);
 /* Those that were unbroken at a moment (brc_fracture_moment), its own breaks counted as broken. */

@@ -1,6 +1,5 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (fracture.cl). */
-#include "cell_breaks.h"
-#include "fracture_internal.h"
+#include "cell_breaks_internal.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -297,6 +296,27 @@ brc_status brc_fracture_choose(brc_simulation *s, int32_t moment)
 brc_status brc_fracture_step(brc_simulation *s, double half_kick)
 {
     return s->model->break_bonds(s, half_kick);
+}
+
+int brc_fracture_step_passes(const brc_simulation *s, brc_step_pass *out)
+{
+    static const char of_failing[] = "branch displacement limits factor weakest record measure mark",
+                      of_nobody_near[] = "neighbour branch displacement limits factor weakest record measure mark",
+                      of_choosing[] = "row_start neighbour branch displacement factor measure mark",
+                      of_marked[] = "row_start neighbour stress mark measure touched";
+    const brc_breaking *f = s->fracture;
+    const brc_cell_breaks *c = f ? f->cells : NULL;
+    int n = 0;
+    if (!f || (c && !c->by_element)) return 0;
+    if (c) out[n++] = (brc_step_pass){c->record, NULL};
+    if (s->scene->fracture.level == 2) {
+        out[n++] = (brc_step_pass){f->stress_second, NULL};
+        out[n++] = (brc_step_pass){f->choose, of_choosing};
+    } else {
+        out[n++] = (brc_step_pass){f->check, s->scene->fracture.level == 1 ? of_failing : of_nobody_near};
+    }
+    if (c) out[n++] = (brc_step_pass){c->mark_chosen, of_marked};
+    return n;
 }
 
 brc_status brc_fracture_lost(brc_simulation *s, double *out)

@@ -1,4 +1,5 @@
 /* What is read of a state of cbm, and the least bytes of a step. */
+#include "../../effects/fracture/breaking.h"
 #include "cbm_internal.h"
 #include <string.h>
 
@@ -27,6 +28,7 @@ brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stre
 
 int brc_cbm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
-    out[0] = (brc_step_pass){brc_cbm_own_of(s)->force, NULL};
-    return 1;
+    const brc_cbm_own *own = brc_cbm_own_of(s);
+    out[0] = (brc_step_pass){s->fracture ? own->breaking_force : own->force, NULL};
+    return 1 + brc_fracture_step_passes(s, out + 1);
 }

@@ -100,9 +100,10 @@ cleanup:
 
 int brc_dlsm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
-    out[0] = (brc_step_pass){brc_dlsm_own_of(s)->gradient, NULL};
-    out[1] = (brc_step_pass){brc_dlsm_own_of(s)->stress, NULL};
-    out[2] = (brc_step_pass){brc_dlsm_own_of(s)->flux, s->wants.many_materials ? NULL : "displacement"};
-    out[3] = (brc_step_pass){brc_dlsm_own_of(s)->force, NULL};
-    return 4;
+    const brc_dlsm_own *own = brc_dlsm_own_of(s);
+    out[0] = (brc_step_pass){own->gradient, NULL};
+    out[1] = (brc_step_pass){own->stress, NULL};
+    out[2] = (brc_step_pass){own->flux, s->wants.many_materials ? NULL : "displacement"};
+    out[3] = (brc_step_pass){brc_cell_breaks_by_bond(s) ? own->screening_force : own->force, NULL};
+    return 4 + brc_fracture_step_passes(s, out + 4);
 }

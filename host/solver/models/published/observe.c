@@ -49,7 +49,15 @@ cleanup:
 
 int brc_published_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
-    out[0] = (brc_step_pass){brc_published_own_of(s)->strain, s->scene->model.area_weights ? NULL : "area"};
-    out[1] = (brc_step_pass){brc_published_own_of(s)->force, NULL};
-    return 2;
+    static const char of_marked[] =
+        "row_start neighbour branch area displacement orientation strain lame_of limit mark "
+        "measure touched found";
+    const brc_published_own *own = brc_published_own_of(s);
+    const bool by_bond = brc_cell_breaks_by_bond(s);
+    out[0] =
+        (brc_step_pass){s->fracture ? own->breaking_strain : own->strain, s->scene->model.area_weights ? NULL : "area"};
+    out[1] = (brc_step_pass){by_bond ? own->breaking_force : own->force, NULL};
+    if (!by_bond) return 2 + brc_fracture_step_passes(s, out + 2);
+    out[2] = (brc_step_pass){own->check, of_marked};
+    return 3;
 }
