@@ -366,12 +366,12 @@ brc_status brc_kernel_find(brc_device *device, const char *name, brc_kernel **ou
     BRC_TRY(BRC_ALLOCATE(device->context, &kernel, 1, name));
     kernel->device = device;
     snprintf(kernel->name, sizeof kernel->name, "%s", name);
+    brc_kernel_signature_read(name, &kernel->signature);
     const brc_status status = device->backend->find(kernel);
     if (status != BRC_OK) {
         brc_memory_free(kernel);
         return status;
     }
-    brc_kernel_signature_read(name, &kernel->signature);
     kernel->next = device->kernels;
     device->kernels = kernel;
     *out = kernel;

@@ -1,5 +1,7 @@
 /* OpenCL: the kernels are compiled at run time from one pasted text for the variant a run needs; everything goes
- * through one queue that keeps the order. */
+ * through one queue that keeps the order. Drivers of GPUs compile every kernel of a program: theirs has those alone
+ * that were asked for, and is made when the first is launched; what is asked for later gets a program of its own. PoCL
+ * compiles a kernel when it is launched and keeps it by its program, so there all are in one. */
 #include "gpu_layout.h"
 #include "opencl_build.h"
 #include "opencl_list.h"
@@ -26,7 +28,7 @@ typedef struct opencl_inside {
     cl_device_id id;
     cl_context context;
     cl_command_queue queue;
-    cl_program program;
+    cl_program program;          /* of all kernels; NULL: programs have those that were asked for */
     brc_opencl_profile *profile; /* NULL: none is asked for */
     size_t group;
     int launches; /* since the last flush */
@@ -35,7 +37,7 @@ typedef struct opencl_inside {
 } opencl_inside;
 
 typedef struct opencl_kernel {
-    cl_kernel kernel;
+    cl_kernel kernel; /* NULL: in no program yet */
     size_t group;
     cl_uint n_args;
     int releases;                              /* opencl_inside.releases when the arguments were set */
@@ -94,13 +96,28 @@ static brc_status choose_layout(brc_device *device, cl_device_id id, int lanes, 
     return BRC_OK;
 }
 
+/* Whether programs have only the kernels that were asked for: on a GPU, or as BRECCIA_OPENCL_PROGRAM says. */
+static brc_status choose_program(brc_device *device, const char *kernel_folder, bool *parts)
+{
+    const char *const asked = getenv("BRECCIA_OPENCL_PROGRAM");
+    *parts = device->info.is_gpu && !kernel_folder;
+    if (!asked || !asked[0]) return BRC_OK;
+    if (strcmp(asked, "whole") != 0 && strcmp(asked, "parts") != 0)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT, "BRECCIA_OPENCL_PROGRAM is '%.32s': expected whole or parts",
+                        asked);
+    *parts = asked[0] == 'p' && !kernel_folder;
+    return BRC_OK;
+}
+
 static brc_status opencl_open(brc_device *device, const brc_device_request *request)
 {
     brc_status status = BRC_OK;
     opencl_inside *inside = NULL;
     cl_device_id devices[BRC_OPENCL_MOST_DEVICES];
     cl_int code;
+    bool parts;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(device->context, &inside, 1, "OpenCL device"));
+    BRC_TRY_OR(cleanup, choose_program(device, request->kernel_folder, &parts));
     if (device->info.index >= brc_opencl_devices(devices)) {
         status = BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s has vanished", device->info.selector);
         goto cleanup;
@@ -113,8 +130,8 @@ static brc_status opencl_open(brc_device *device, const brc_device_request *requ
     inside->queue =
         clCreateCommandQueue(inside->context, inside->id, inside->profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
     BRC_TRY_OR(cleanup, brc_opencl_check(device, code, "making a queue"));
-    BRC_TRY_OR(cleanup, brc_opencl_build(device, inside->context, inside->id, inside->group, request->kernel_folder,
-                                         request->exact, &inside->program));
+    const brc_opencl_request whole = {inside->context, inside->id, inside->group, request->kernel_folder, NULL};
+    if (!parts) BRC_TRY_OR(cleanup, brc_opencl_build(device, &whole, &inside->program));
     device->inside = inside;
     inside = NULL;
 cleanup:
@@ -192,23 +209,19 @@ static brc_status opencl_copy(brc_device *device, void *to, void *from, int64_t 
     return brc_opencl_check(device, code, "copying a buffer");
 }
 
-static brc_status opencl_find(brc_kernel *kernel)
+/* A kernel of a program that has it. */
+static brc_status take_kernel(brc_kernel *kernel, cl_program program)
 {
     brc_device *const device = kernel->device;
     opencl_inside *const inside = device->inside;
+    opencl_kernel *const own = kernel->inside;
     cl_int code;
-    const cl_kernel found = clCreateKernel(inside->program, kernel->name, &code);
+    size_t most = 0;
+    const cl_kernel found = clCreateKernel(program, kernel->name, &code);
     if (code == CL_INVALID_KERNEL_NAME)
         return BRC_FAIL(device->context, BRC_INTERNAL, "there is no kernel '%s' on device %s", kernel->name,
                         device->info.selector);
     BRC_TRY(brc_opencl_check(device, code, kernel->name));
-    opencl_kernel *own = NULL;
-    const brc_status status = BRC_ALLOCATE(device->context, &own, 1, kernel->name);
-    if (status != BRC_OK) {
-        (void)clReleaseKernel(found);
-        return status;
-    }
-    size_t most = 0;
     own->kernel = found;
     own->group = inside->group;
     (void)clGetKernelInfo(found, CL_KERNEL_NUM_ARGS, sizeof own->n_args, &own->n_args, NULL);
@@ -216,14 +229,55 @@ static brc_status opencl_find(brc_kernel *kernel)
     if (clGetKernelWorkGroupInfo(found, inside->id, CL_KERNEL_WORK_GROUP_SIZE, sizeof most, &most, NULL) == CL_SUCCESS)
         while (own->group > most && own->group > 1)
             own->group /= 2;
-    kernel->inside = own;
     return BRC_OK;
+}
+
+static brc_status opencl_find(brc_kernel *kernel)
+{
+    brc_device *const device = kernel->device;
+    opencl_inside *const inside = device->inside;
+    opencl_kernel *own = NULL;
+    if (!inside->program && kernel->signature.n == 0)
+        return BRC_FAIL(device->context, BRC_INTERNAL, "there is no kernel '%s' on device %s", kernel->name,
+                        device->info.selector);
+    BRC_TRY(BRC_ALLOCATE(device->context, &own, 1, kernel->name));
+    kernel->inside = own;
+    const brc_status status = inside->program ? take_kernel(kernel, inside->program) : BRC_OK;
+    if (status != BRC_OK) {
+        brc_memory_free(own);
+        kernel->inside = NULL;
+    }
+    return status;
+}
+
+/* A program of the kernels that were asked for and are in none. */
+static brc_status build_missing(brc_device *device)
+{
+    opencl_inside *const inside = device->inside;
+    const char **names = NULL;
+    cl_program program = NULL;
+    brc_status status = BRC_OK;
+    int n = 0, room = 0;
+    for (const brc_kernel *k = device->kernels; k; k = k->next)
+        ++room;
+    BRC_TRY(BRC_ALLOCATE(device->context, &names, room, "names of kernels"));
+    for (const brc_kernel *k = device->kernels; k; k = k->next)
+        if (!((const opencl_kernel *)k->inside)->kernel) names[n++] = k->name;
+    const brc_program_part part = {n, names};
+    const brc_opencl_request asked = {inside->context, inside->id, inside->group, NULL, &part};
+    BRC_TRY_OR(cleanup, brc_opencl_build(device, &asked, &program));
+    for (brc_kernel *k = device->kernels; k; k = k->next)
+        if (!((const opencl_kernel *)k->inside)->kernel) BRC_TRY_OR(cleanup, take_kernel(k, program));
+cleanup:
+    if (program) (void)clReleaseProgram(program); /* its kernels hold it */
+    brc_memory_free(names);
+    return status;
 }
 
 static void opencl_forget(brc_kernel *kernel)
 {
     opencl_kernel *const own = kernel->inside;
-    (void)clReleaseKernel(own->kernel);
+    if (own->kernel) (void)clReleaseKernel(own->kernel);
     brc_memory_free(own);
 }
 
@@ -240,6 +294,7 @@ static brc_status opencl_launch(brc_kernel *kernel, int64_t first, int64_t n_ite
     brc_device *const device = kernel->device;
     opencl_inside *const inside = device->inside;
     opencl_kernel *const own = kernel->inside;
+    if (!own->kernel) BRC_TRY(build_missing(device));
     if ((cl_uint)n_args != own->n_args)
         return BRC_FAIL(device->context, BRC_INTERNAL, "kernel %s takes %u arguments, was given %d", kernel->name,
                         (unsigned)own->n_args, n_args);

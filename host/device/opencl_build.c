@@ -131,23 +131,28 @@ static brc_status compile(brc_device *device, cl_context context, cl_device_id i
     return status;
 }
 
-brc_status brc_opencl_build(brc_device *device, cl_context context, cl_device_id id, size_t group, const char *folder,
-                            bool exact, cl_program *out)
+brc_status brc_opencl_build(brc_device *device, const brc_opencl_request *r, cl_program *out)
 {
     brc_status status = BRC_OK;
     char *source = NULL, *key = NULL, options[256];
+    const double start = brc_clock_s();
     *out = NULL;
     snprintf(options, sizeof options,
              "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D "
              "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s",
-             (int)device->precision, device->lanes, device->slice, (int)group, (int)device->many_materials,
-             exact ? exact_options(device, id) : "");
-    BRC_TRY_OR(cleanup, brc_program_source(device->context, folder, &source));
-    BRC_TRY_OR(cleanup, make_key(device, id, options, source, &key));
-    if (is_kept(device)) *out = kept_program(device, context, id, options, key);
+             (int)device->precision, device->lanes, device->slice, (int)r->group, (int)device->many_materials,
+             device->exact ? exact_options(device, r->id) : "");
+    BRC_TRY_OR(cleanup, brc_program_source(device->context, r->folder, r->part, &source));
+    BRC_TRY_OR(cleanup, make_key(device, r->id, options, source, &key));
+    if (is_kept(device)) *out = kept_program(device, r->context, r->id, options, key);
     if (*out) goto cleanup;
-    BRC_TRY_OR(cleanup, compile(device, context, id, options, source, folder, out));
+    BRC_TRY_OR(cleanup, compile(device, r->context, r->id, options, source, r->folder, out));
     if (is_kept(device)) keep_program(device, *out, key);
+    char kernels[32] = "all";
+    if (r->part) snprintf(kernels, sizeof kernels, "%d", r->part->n);
+    brc_log(device->context, r->part || device->info.is_gpu ? BRC_LOG_INFO : BRC_LOG_DEBUG,
+            "device %s: a program of %s kernels, made in %.2f s", device->info.selector, kernels,
+            brc_clock_s() - start);
 cleanup:
     if (status != BRC_OK && *out) {
         (void)clReleaseProgram(*out);

@@ -14,6 +14,8 @@ typedef struct paste {
     size_t length, capacity;
     char names[MOST_FILES][64]; /* pasted or being pasted */
     int n_names;
+    const brc_program_part *part; /* NULL: all kernels */
+    char behind[16];              /* what PASS now puts behind names (kernels.h) */
 } paste;
 
 static brc_status append(paste *p, const char *text, size_t length)
@@ -72,12 +74,59 @@ static bool is_pasted(const paste *p, const char *name)
     return false;
 }
 
+/* What follows `head` in the line, else NULL. */
+static const char *after(const char *line, const char *head)
+{
+    const size_t length = strlen(head);
+    return strncmp(line, head, length) == 0 ? line + length : NULL;
+}
+
+static size_t word_length(const char *text)
+{
+    return strspn(text, "abcdefghijklmnopqrstuvwxyz_0123456789");
+}
+
+/* `#define PASS(name) name##_listed`. */
+static void note_pass(paste *p, const char *line)
+{
+    const char *behind = after(line, "#define PASS(name) name");
+    if (!behind) return;
+    if (after(behind, "##")) behind += 2;
+    snprintf(p->behind, sizeof p->behind, "%.*s", (int)word_length(behind), behind);
+}
+
+/* Whether a kernel begins in this line that the program is to do without. */
+static bool is_left_out(const paste *p, const char *line)
+{
+    const char *name = p->part ? after(line, "KERNEL void") : NULL;
+    char whole[96];
+    if (!name) return false;
+    name += strspn(name, " \n");
+    const char *const passed = after(name, "PASS(");
+    if (passed) name = passed;
+    snprintf(whole, sizeof whole, "%.*s%s", (int)word_length(name), name, passed ? p->behind : "");
+    for (int k = 0; k < p->part->n; ++k)
+        if (strcmp(p->part->kernels[k], whole) == 0) return false;
+    return true;
+}
+
+/* A line that is no include; *skips: it belongs to a kernel that is left out, up to the bracket in the first column.
+ * Such lines are empty ones: the others keep their numbers. */
+static brc_status paste_line(paste *p, const char *line, size_t length, bool *skips)
+{
+    note_pass(p, line);
+    if (!*skips && !is_left_out(p, line)) return append(p, line, length);
+    *skips = *line != '}';
+    return append(p, "\n", 1);
+}
+
 static brc_status paste_file(paste *p, const char *name)
 {
     brc_status status = BRC_OK;
     char *owned = NULL;
     const char *text = NULL;
     char mark[96];
+    bool skips = false;
     if (is_pasted(p, name)) return BRC_OK;
     if (p->n_names == MOST_FILES)
         return BRC_FAIL(p->context, BRC_BAD_INPUT, "kernel text %s: more than %d files", name, (int)MOST_FILES);
@@ -95,7 +144,7 @@ static brc_status paste_file(paste *p, const char *name)
             snprintf(mark, sizeof mark, "\n#line %d \"%s\"\n", line_number + 1, name);
             BRC_TRY_OR(cleanup, append(p, mark, strlen(mark)));
         } else {
-            BRC_TRY_OR(cleanup, append(p, line, length));
+            BRC_TRY_OR(cleanup, paste_line(p, line, length, &skips));
         }
         line += length;
     }
@@ -104,10 +153,10 @@ cleanup:
     return status;
 }
 
-brc_status brc_program_source(brc_context *context, const char *folder, char **out)
+brc_status brc_program_source(brc_context *context, const char *folder, const brc_program_part *part, char **out)
 {
     brc_status status = BRC_OK;
-    paste p = {.context = context, .folder = folder};
+    paste p = {.context = context, .folder = folder, .part = part};
     char head[HEAD_BYTES + 1];
     *out = NULL;
     /* room for the hash, which is known at the end */

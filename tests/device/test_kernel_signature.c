@@ -86,7 +86,7 @@ static void the_pasted_text_holds_each_file_once_and_no_include(void **unused)
     (void)unused;
     brc_context *context = brc_context_create();
     char *embedded = NULL, *read = NULL;
-    assert_int_equal(brc_program_source(context, NULL, &embedded), BRC_OK);
+    assert_int_equal(brc_program_source(context, NULL, NULL, &embedded), BRC_OK);
     assert_null(strstr(embedded, "#include \"")); /* the C reading includes a system header */
     assert_ptr_equal(strstr(embedded, "#define BRC_KERNELS_HASH 0x"), embedded);
     const char *const first = strstr(embedded, "#line 1 \"core/portable.h\"");
@@ -97,10 +97,45 @@ static void the_pasted_text_holds_each_file_once_and_no_include(void **unused)
     assert_non_null(passes);
     assert_non_null(strstr(passes + 1, "#line 1 \"models/dlsm/dlsm_passes.cl\""));
     /* the files on disk give the same text, hash included: nothing was changed by embedding */
-    assert_int_equal(brc_program_source(context, BRC_SOURCE_DIR_PATH "/kernels", &read), BRC_OK);
+    assert_int_equal(brc_program_source(context, BRC_SOURCE_DIR_PATH "/kernels", NULL, &read), BRC_OK);
     assert_string_equal(embedded, read);
     brc_memory_free(embedded);
     brc_memory_free(read);
+    brc_context_free(&context);
+}
+
+static int count_of(const char *text, const char *what)
+{
+    int n = 0;
+    for (; (text = strstr(text, what)); text += strlen(what))
+        ++n;
+    return n;
+}
+
+#define NAME(name) #name,
+static void a_part_of_the_text_holds_its_kernels_and_the_lines_of_the_others_are_empty(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    static const char *const all[] = {BRC_KERNEL_LIST(NAME)};
+    static const char *const few[] = {"dlsm_force_listed", "advance"};
+    const brc_program_part whole = {sizeof all / sizeof *all, all}, part = {2, few};
+    char *text = NULL, *same = NULL, *less = NULL;
+    assert_int_equal(brc_program_source(context, NULL, NULL, &text), BRC_OK);
+    assert_int_equal(brc_program_source(context, NULL, &whole, &same), BRC_OK);
+    assert_string_equal(text, same);
+    assert_int_equal(brc_program_source(context, NULL, &part, &less), BRC_OK);
+    assert_int_equal(count_of(text, "\nKERNEL void"), whole.n);
+    assert_int_equal(count_of(less, "\nKERNEL void"), 2);
+    assert_int_equal(count_of(less, "\n"), count_of(text, "\n"));
+    /* the pass in its second reading alone */
+    const char *const pass = strstr(less, "KERNEL void PASS(dlsm_force)(");
+    assert_non_null(pass);
+    assert_true(pass > strstr(less, "#define PASS(name) name##_listed"));
+    assert_non_null(strstr(less, "KERNEL void advance("));
+    brc_memory_free(text);
+    brc_memory_free(same);
+    brc_memory_free(less);
     brc_context_free(&context);
 }
 
@@ -112,6 +147,7 @@ int main(void)
         cmocka_unit_test(a_pass_has_one_list_and_a_name_for_each_of_its_readings),
         cmocka_unit_test(markers_are_const_where_they_do_not_write),
         cmocka_unit_test(the_pasted_text_holds_each_file_once_and_no_include),
+        cmocka_unit_test(a_part_of_the_text_holds_its_kernels_and_the_lines_of_the_others_are_empty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

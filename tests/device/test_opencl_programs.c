@@ -91,6 +91,7 @@ static void the_kernels_compile_for_every_width(void **unused)
     } variants[] = {{BRC_DOUBLE, false, 1}, {BRC_DOUBLE, true, 1},  {BRC_MIXED, false, 1},
                     {BRC_MIXED, true, 1},   {BRC_SINGLE, false, 1}, {BRC_SINGLE, true, 1},
                     {BRC_DOUBLE, false, 4}, {BRC_MIXED, true, 16},  {BRC_SINGLE, true, 16}};
+    assert_int_equal(setenv("BRECCIA_OPENCL_PROGRAM", "whole", 1), 0);
     for (size_t k = 0; k < sizeof variants / sizeof variants[0]; ++k) {
         const brc_device_request request = {.selector = info.selector,
                                             .precision = variants[k].precision,
@@ -99,9 +100,68 @@ static void the_kernels_compile_for_every_width(void **unused)
         if (request.precision != BRC_SINGLE && !info.has_double) continue;
         if (device_cases_open(context, &request) != BRC_OK) device_cases_says(context, "(it compiles)");
     }
+    assert_int_equal(unsetenv("BRECCIA_OPENCL_PROGRAM"), 0);
     const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .lanes = 5};
     assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
     device_cases_says(context, "5 elements a work-item: expected 1, 4, 8 or 16");
+    brc_context_free(&context);
+}
+
+static void note_program(void *self, brc_log_level level, const char *line)
+{
+    (void)level;
+    const char *const found = strstr(line, "a program of ");
+    if (found) snprintf(self, 64, "%.*s", (int)strcspn(found, ","), found);
+}
+
+/* y += x, by a kernel that is bound already, and what is in y then. */
+static float add(brc_kernel *axpy, brc_buffer *x, brc_buffer *y)
+{
+    float out = 0;
+    assert_int_equal(BRC_LAUNCH(axpy, 1, BRC_INT(1), BRC_STATE(1), BRC_BUF(x), BRC_BUF(y)), BRC_OK);
+    assert_int_equal(brc_buffer_read(y, 0, &out, sizeof out), BRC_OK);
+    return out;
+}
+
+/* As the drivers of GPUs have them: what was asked for until the first launch, then what was asked for later. */
+static void a_program_has_the_kernels_that_were_asked_for(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE};
+    brc_device *device = NULL;
+    brc_buffer *x = NULL, *y = NULL;
+    brc_kernel *axpy = NULL, *copy = NULL, *other = NULL;
+    const float two = 2;
+    char made[64] = "";
+    brc_log_set_level(context, BRC_LOG_INFO);
+    brc_log_set_sink(context, note_program, made);
+    assert_int_equal(setenv("BRECCIA_OPENCL_PROGRAM", "some", 1), 0);
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "BRECCIA_OPENCL_PROGRAM is 'some': expected whole or parts");
+    assert_int_equal(setenv("BRECCIA_OPENCL_PROGRAM", "parts", 1), 0);
+    if (brc_device_open(context, &request, &device) != BRC_OK) device_cases_says(context, "(it opens)");
+    assert_int_equal(brc_buffer_create(device, &x, sizeof two, "test numbers"), BRC_OK);
+    assert_int_equal(brc_buffer_create(device, &y, sizeof two, "test numbers"), BRC_OK);
+    assert_int_equal(brc_buffer_write(x, 0, &two, sizeof two), BRC_OK);
+    assert_int_equal(brc_kernel_find(device, "vector_axpy", &axpy), BRC_OK);
+    assert_int_equal(brc_kernel_find(device, "dlsm_force_listed", &other), BRC_OK); /* never launched */
+    assert_string_equal(made, "");
+    assert_true(add(axpy, x, y) == 2);
+    assert_string_equal(made, "a program of 2 kernels");
+    assert_int_equal(brc_kernel_find(device, "vector_copy", &copy), BRC_OK);
+    assert_true(add(axpy, x, y) == 4);
+    assert_string_equal(made, "a program of 2 kernels");
+    assert_int_equal(BRC_LAUNCH(copy, 1, BRC_INT(1), BRC_BUF(x), BRC_BUF(y)), BRC_OK);
+    assert_string_equal(made, "a program of 1 kernels");
+    assert_true(add(axpy, x, y) == 4);
+    brc_context_clear(context);
+    assert_int_equal(brc_kernel_find(device, "no_such_kernel", &other), BRC_INTERNAL);
+    device_cases_says(context, "there is no kernel 'no_such_kernel'");
+    brc_buffer_free(&x);
+    brc_buffer_free(&y);
+    brc_device_close(&device);
+    assert_int_equal(unsetenv("BRECCIA_OPENCL_PROGRAM"), 0);
     brc_context_free(&context);
 }
 
@@ -213,6 +273,7 @@ int main(void)
         cmocka_unit_test(kernels_that_do_not_compile_show_the_whole_log),
         cmocka_unit_test(the_kernels_of_a_folder_replace_the_embedded_ones),
         cmocka_unit_test(the_kernels_compile_for_every_width),
+        cmocka_unit_test(a_program_has_the_kernels_that_were_asked_for),
         cmocka_unit_test(programs_are_kept_and_what_is_not_whole_is_compiled_again),
     };
     char why[400];
