@@ -37,7 +37,7 @@ def stages_of(name):
 
 def run(name, folder, sets, device, precision):
     done = subprocess.run(resume.command(name, folder, sets, device, precision, ["--exact"]), capture_output=True, text=True, timeout=900,
-                          env=dict(os.environ, BRECCIA_OPENCL_LAYOUT="gpu"))
+                          env=dict(os.environ, BRECCIA_OPENCL_LAYOUT="gpu", BRECCIA_OPENCL_PROGRAM="parts"))
     return done.returncode, done.stderr
 
 

@@ -83,8 +83,9 @@ static void tell_dynamic(FILE *details, const brc_scene *scene, const brc_setup 
             t->cut ? "" : " (run to its end)");
     if (t->launches > 0)
         fprintf(details,
-                "stage %s: %.4g launches and %.3g waits for the device in a step, samples and frames included\n",
-                stage->name, t->launches, t->waits);
+                "stage %s: %.4g launches and %.3g waits for the device in a step, samples and frames included; its "
+                "passes move %.4g bytes a bond at least\n",
+                stage->name, t->launches, t->waits, t->floor_bytes / (double)brc_setup_n_bonds(setup));
     if (factor > 1)
         fprintf(
             details,

@@ -133,6 +133,14 @@ static brc_device_counts counted(const watch *w)
     return sum;
 }
 
+static double floor_of(const brc_assembly *all)
+{
+    double sum = 0;
+    for (int32_t k = 0; k < all->n; ++k)
+        sum += brc_simulation_floor_bytes(all->part[k]);
+    return sum;
+}
+
 static brc_status count_numbers(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows,
                                 int32_t columns, void *data)
 {
@@ -162,6 +170,7 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
     const int64_t step = brc_simulation_step(simulation);
     const brc_stage *stage = &brc_simulation_scene(simulation)->stages[brc_simulation_stage(simulation)];
     w->now->done = step;
+    if (stage->solver == BRC_SOLVER_DYNAMIC) w->now->floor_bytes = floor_of(&w->setup->assembly);
     if (w->device_first == 0 && stage->solver == BRC_SOLVER_DYNAMIC)
         w->device_first = brc_assembly_device_bytes(&w->setup->assembly);
     if (stage->solver == BRC_SOLVER_STATIC && stage->most_events == 0) return BRC_OK;

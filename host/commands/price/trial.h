@@ -19,6 +19,7 @@ typedef struct brc_trial_stage {
     double pace_s;  /* of a step or event after that, without output; static and modes: of an iteration */
     double sample_s, frame_s; /* of one of them */
     double launches, waits;   /* of a step or event, with what samples and frames ask of the devices */
+    double floor_bytes;       /* dynamic: the least that a step moves, of all parts */
     double whole_s;           /* of the stage as it was, output included */
 } brc_trial_stage;
 

@@ -107,6 +107,55 @@ static void nobody_waits_between_looks_of_the_guard(void **state)
         }
 }
 
+#define TOUCHING "interactions: {contact: {friction: 0.3}}\n"
+#define SWING_BEAMS(rate)                                                                                              \
+    TOUCHING "stages:\n  - name: swing\n    solver: {dynamic: {steps: 4000}}\n    initial:\n      - velocity: "        \
+             "{gradient: {x: [" rate " 1/s, 0, 0]}}\n"
+
+/* Beams ask what broke and how far surfaces moved, as cells do. */
+static void nor_does_anybody_where_beams_may_touch(void **state)
+{
+    (void)state;
+    for (int breaks = 0; breaks < 2; ++breaks) {
+        bench_case c;
+        fracture_options o = {.device = DEVICE, .stages = SWING_BEAMS("1e-5")};
+        if (breaks)
+            o.strength = "strength: {tension: 1 Pa}", o.fracture = "{criterion: {virial-principal: {level: 1}}}";
+        open_fracture(&c, o);
+        assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+        assert_done(&c, brc_simulation_advance(c.simulation, 10 * BRC_AHEAD_MOST));
+        for (int stretch = 0; stretch < 4; ++stretch) {
+            const brc_device_counts before = brc_device_counted(c.device);
+            assert_done(&c, brc_simulation_advance(c.simulation, BRC_AHEAD_MOST));
+            assert_int_equal(brc_device_counted(c.device).waits - before.waits, 1 + breaks);
+        }
+        close_case(&c);
+    }
+}
+
+/* Surfaces that move a hundred times as fast, too fast to be left for 64 steps: each look is one wait, and what it
+ * allows is taken at once. */
+static void moving_surfaces_are_looked_at_once_in_many_steps(void **state)
+{
+    (void)state;
+    for (int beams = 0; beams < 2; ++beams) {
+        bench_case c;
+        if (beams)
+            open_fracture(&c, (fracture_options){.device = DEVICE, .stages = SWING_BEAMS("1e-3")});
+        else
+            open_case(&c, (case_options){.device = DEVICE, .stages = MOVE, .sets = TOUCHING});
+        assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+        assert_done(&c, brc_simulation_advance(c.simulation, 1000));
+        const brc_device_counts before = brc_device_counted(c.device);
+        const int64_t lists = brc_contact_lists(c.simulation);
+        assert_done(&c, brc_simulation_advance(c.simulation, 1000));
+        const int64_t waits = brc_device_counted(c.device).waits - before.waits;
+        assert_int_equal(brc_contact_lists(c.simulation), lists);
+        assert_true(waits > 1000 / BRC_AHEAD_MOST && waits <= 1000 / BRC_AHEAD_FEWEST);
+        close_case(&c);
+    }
+}
+
 typedef struct outcome {
     int64_t n, again;
     brc_break *events;
@@ -275,6 +324,8 @@ int main(void)
                                        cmocka_unit_test(steps_ahead_have_the_bits_of_steps_that_are_known),
                                        cmocka_unit_test(so_they_have_where_surfaces_touch),
                                        cmocka_unit_test(nobody_waits_between_looks_of_the_guard),
+                                       cmocka_unit_test(nor_does_anybody_where_beams_may_touch),
+                                       cmocka_unit_test(moving_surfaces_are_looked_at_once_in_many_steps),
                                        cmocka_unit_test(so_have_those_before_surfaces_meet),
                                        cmocka_unit_test(so_have_those_before_the_first_beam_breaks),
                                        cmocka_unit_test(beams_that_do_not_break_are_two_launches_more)};
