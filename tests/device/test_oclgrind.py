@@ -61,23 +61,9 @@ MORE = {
     "faces": ({"model": "dlsm", "fill": CELLS, "stage": steps(more=PULLED), "effects": "gravity: [0, 0, -1 m/s^2]\n"}, {"held_gradient_pass", "gravity"}),
     "materials": ({"model": "dlsm", "fill": CELLS, "other": ", clay: {density: 2 kg/m^3, E: 2 Pa, nu: 0.3}",
                    "regions": ", regions: [{where: {half_space: {point: [0.5 m, 0, 0], normal: [1, 0, 0]}}, material: clay}]"}, {"dlsm_flux_pass"}),
-    "soften": ({"model": "dlsm", "fill": CELLS, "strength": ", strength: {tension: 1e-4 Pa, fracture_energy: 1e-6 J/m^2}",
-                "stage": steps(3, "10 ms"), "effects": BY_BOND}, {"soft_check"}),
-    "criterion": ({"model": "dlsm", "fill": CELLS, "strength": WEAK, "stage": steps(step="10 ms"),
-                   "effects": "fracture: {criterion: {virial-principal: {level: 1}}}\n"}, {"cells_record", "fracture_check"}),
     "published-fracture": ({"model": "dlsm-published", "fill": CELLS, "strength": ", strength: {tension: 1e-5 Pa}", "stage": steps(more=ENDS_PULLED),
                             "effects": BY_BOND + ENDS}, {"published_breaking_force", "published_check"}),
-    "beams": ({"model": "cbm", "fill": SPHERES, "strength": WEAK, "stage": steps(step="10 ms", more=ENDS_PULLED),
-               "effects": "fracture: {criterion: {virial-principal: {level: 1}}}\n" + CONTACT + ENDS}, {"fracture_force", "contact_spheres"}),
-    "beams-second": ({"model": "cbm", "fill": SPHERES, "strength": WEAK, "stage": steps(step="10 ms"),
-                      "effects": "fracture: {criterion: {virial-principal: {level: 2}}}\n"}, {"fracture_stress_second", "fracture_choose"}),
-    "beams-soften": ({"model": "cbm", "fill": SPHERES, "strength": ", strength: {tension: 1e-4 Pa, fracture_energy: 1e-6 J/m^2}",
-                      "stage": steps(3, "10 ms"), "effects": "fracture: {criterion: {virial-principal: {level: 1}}}\n"}, {"beam_soft_move"}),
     "ball": ({"model": "dlsm", "fill": CELLS, "stage": steps(3, "5 ms"), "effects": CONTACT + BALL}, {"striker_advance", "contact_striker_parts"}),
-    "static": ({"model": "dlsm", "fill": CELLS, "stage": "solver: {static: {tolerance: 1e-2}}, " + PULLED}, {"vector_xpay"}),
-    "beams-static": ({"model": "cbm", "fill": SPHERES, "effects": ENDS,
-                      "stage": "solver: {static: {tolerance: 1e-2}}, loads: [element_displacement: {set: left, x: 0, y: 0, z: 0}, "
-                               "element_displacement: {set: right, x: 1 mm}]"}, {"vector_xpay"}),
 }
 
 ALL = {**CASES, **MORE}
