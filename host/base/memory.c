@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #define ALIGNMENT ((size_t)64)
+#define ELSEWHERE ((size_t)1) /* second word of a head: the block is not of the heap */
 
 /* Statistics of the process, not state that any computation reads. */
 static atomic_int_least64_t held_bytes;
@@ -76,10 +77,25 @@ brc_status brc_memory_resize(brc_context *context, void **block, int64_t n, size
     return BRC_OK;
 }
 
+int64_t brc_memory_block_bytes(const void *block)
+{
+    size_t bytes;
+    memcpy(&bytes, (const char *)block - ALIGNMENT, sizeof bytes);
+    return (int64_t)bytes;
+}
+
+void brc_memory_head(char head[BRC_MEMORY_HEAD], int64_t bytes)
+{
+    const size_t words[2] = {(size_t)bytes, ELSEWHERE};
+    memset(head, 0, BRC_MEMORY_HEAD);
+    memcpy(head, words, sizeof words);
+}
+
 void brc_memory_free(void *block)
 {
     if (!block) return;
     size_t *const size = size_of(block);
+    if (size[1] == ELSEWHERE) return;
     count(-(int64_t)*size);
     free(size);
 }

@@ -15,6 +15,12 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t count, 
 brc_status brc_memory_resize(brc_context *context, void **block, int64_t count, size_t size, const char *what);
 /* Free a block got from brc_memory_allocate; accepts NULL. */
 void brc_memory_free(void *block);
+/* Bytes of a block, at least those asked for. */
+int64_t brc_memory_block_bytes(const void *block);
+enum { BRC_MEMORY_HEAD = 64 };
+/* What lies in front of a block: its size, here of one in memory that was got otherwise, which brc_memory_free and
+ * brc_memory_resize leave as it is. bytes: a multiple of BRC_MEMORY_HEAD. */
+void brc_memory_head(char head[BRC_MEMORY_HEAD], int64_t bytes);
 /* Bytes now held and the most ever held through this interface in the process [byte]. */
 int64_t brc_memory_held(void);
 int64_t brc_memory_peak(void);

@@ -1,11 +1,30 @@
 /* Parts, domains, devices, simulations of a scene. */
 #include "setup.h"
 #include "scene_domain.h"
+#include "../../preprocess/domain/domain_ranks.h"
 #include "../base/memory.h"
+#include "../base/ranks.h"
 #include "../device/device_list.h"
 #include "../solver/laws/beam_polish.h"
 #include <math.h>
+#include <omp.h>
 #include <string.h>
+
+/* On several ranks the first of each machine builds, with the threads of all of them. */
+static brc_status build(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
+{
+    const brc_ranks_place here = brc_ranks_here();
+    const int each = n_threads > 0 ? n_threads : omp_get_max_threads();
+    bool shared = here.count > 1;
+    if (!shared) return brc_split_domains_build(context, split, n_threads, out);
+    if (here.local == 0) BRC_TRY(brc_split_domains_build(context, split, each * here.local_count, out));
+    for (int32_t k = 0; shared && k < split->n; ++k)
+        BRC_TRY(brc_domain_share(context, &out[k], &shared));
+    if (shared || here.local == 0) return BRC_OK;
+    for (int32_t k = 0; k < split->n; ++k)
+        brc_domain_free(&out[k]);
+    return brc_split_domains_build(context, split, n_threads, out);
+}
 
 brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads,
                              brc_setup *setup)
@@ -18,7 +37,7 @@ brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_d
     BRC_TRY(BRC_ALLOCATE(context, &setup->simulation, n, "simulations of a scene"));
     setup->n = n;
     if (given && n > 1) return BRC_FAIL(context, BRC_INTERNAL, "one domain was given for bodies of %d models", (int)n);
-    if (!given) BRC_TRY(brc_split_domains_build(context, setup->split, n_threads, setup->built));
+    if (!given) BRC_TRY(build(context, setup->split, n_threads, setup->built));
     for (int32_t k = 0; k < n; ++k)
         setup->domain[k] = given ? given : setup->built[k];
     return brc_split_share(context, setup->split, setup->domain);

@@ -280,10 +280,28 @@ brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes
     return BRC_OK;
 }
 
+brc_status brc_buffer_create_scratch(brc_buffer *of, brc_buffer **out)
+{
+    brc_buffer *buffer = NULL;
+    BRC_TRY(BRC_ALLOCATE(of->device->context, &buffer, 1, of->what));
+    buffer->device = of->device;
+    buffer->memory = of->memory;
+    buffer->bytes = of->bytes;
+    buffer->is_scratch = true;
+    snprintf(buffer->what, sizeof buffer->what, "%s", of->what);
+    *out = buffer;
+    return BRC_OK;
+}
+
 void brc_buffer_free(brc_buffer **handle)
 {
     brc_buffer *const buffer = handle ? *handle : NULL;
     if (!buffer) return;
+    if (buffer->is_scratch) {
+        brc_memory_free(buffer);
+        *handle = NULL;
+        return;
+    }
     buffer->device->backend->release(buffer->device, buffer->memory, buffer->held);
     buffer->device->bytes -= buffer->bytes;
     if (buffer->older) buffer->older->younger = buffer->younger;
@@ -317,9 +335,10 @@ brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data
 {
     BRC_TRY(check_range(buffer, offset, bytes, "write"));
     if (bytes == 0) return BRC_OK;
-    BRC_TRY(brc_share_gather(buffer));
     buffer->device->counts.waits += 1;
     buffer->device->counts.written_bytes += bytes;
+    if (brc_share_write(buffer, offset, data, bytes) || brc_share_once(buffer, offset, data, bytes)) return BRC_OK;
+    BRC_TRY(brc_share_gather(buffer));
     return buffer->device->backend->write(buffer->device, buffer->memory, offset, data, bytes);
 }
 
@@ -327,9 +346,12 @@ brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64
 {
     BRC_TRY(check_range(buffer, offset, bytes, "read"));
     if (bytes == 0) return BRC_OK;
-    BRC_TRY(brc_share_gather(buffer));
+    bool done;
     buffer->device->counts.waits += 1;
     buffer->device->counts.read_bytes += bytes;
+    BRC_TRY(brc_share_read(buffer, offset, data, bytes, &done));
+    if (done) return BRC_OK;
+    BRC_TRY(brc_share_gather(buffer));
     return buffer->device->backend->read(buffer->device, buffer->memory, offset, data, bytes);
 }
 
@@ -341,16 +363,16 @@ brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes)
         return BRC_FAIL(dst->device->context, BRC_INTERNAL, "copy from %s to %s: must be two buffers of one device",
                         src->what, dst->what);
     if (bytes == 0) return BRC_OK;
-    BRC_TRY(brc_share_gather(src));
-    BRC_TRY(brc_share_gather(dst));
+    BRC_TRY(brc_share_copy(dst, src, bytes));
     dst->device->counts.copied_bytes += bytes;
     return dst->device->backend->copy(dst->device, dst->memory, src->memory, bytes);
 }
 
 brc_status brc_buffer_fill_zero(brc_buffer *buffer)
 {
-    if (buffer->bytes == 0) return BRC_OK;
-    buffer->where = 0; /* everywhere */
+    if (buffer->bytes == 0 || brc_share_zero(buffer)) return BRC_OK;
+    buffer->where = BRC_EVERYWHERE;
+    buffer->marked = false;
     return buffer->device->backend->zero(buffer->device, buffer->memory, buffer->bytes);
 }
 

@@ -97,6 +97,9 @@ brc_device_counts brc_device_counted(const brc_device *device);
  * BRC_DEVICE_FAILED: "device ... has no room for <what>: N bytes asked, M held, L allowed in one buffer". */
 brc_status brc_buffer_create(brc_device *device, brc_buffer **out, int64_t bytes, const char *what);
 void brc_buffer_free(brc_buffer **buffer);
+/* The memory of `of` under another name, as scratch: numbers in it belong to no rows, and what was in `of` is lost. To
+ * be freed before `of`; counts no bytes. BRC_NO_MEMORY. */
+brc_status brc_buffer_create_scratch(brc_buffer *of, brc_buffer **out);
 int64_t brc_buffer_bytes(const brc_buffer *buffer);
 /* The memory itself, where the device is the cpu and works in the host's; NULL: it must be read. Kernels that were
  * launched may still write it (brc_device_wait). */
@@ -131,11 +134,13 @@ typedef enum brc_use {
     BRC_USE_GATHER,
     BRC_USE_PUT,
     BRC_USE_UPDATE,
+    BRC_USE_FLAG,
+    BRC_USE_SPREAD,
     BRC_USE_SCATTER
 } brc_use;
 static inline bool brc_use_writes(brc_use use)
 {
-    return use == BRC_USE_PUT || use == BRC_USE_UPDATE || use == BRC_USE_SCATTER;
+    return use >= BRC_USE_PUT;
 }
 
 /* A kernel of the run's instance, found once by name; owned by the device. BRC_INTERNAL: no such kernel. */

@@ -195,24 +195,43 @@ static void clear(const brc_device *device, char *memory, int64_t bytes)
     }
 }
 
+/* Whole huge pages, cleared by the system as they are touched. */
+static size_t mapped(int64_t bytes)
+{
+    return ((size_t)bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+}
+static bool map(int64_t bytes, void **memory)
+{
+    const size_t wanted = mapped(bytes), all = wanted + HUGE_PAGE;
+    char *const from = mmap(NULL, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (from == MAP_FAILED) return false;
+    const size_t before = (HUGE_PAGE - (uintptr_t)from % HUGE_PAGE) % HUGE_PAGE, after = all - before - wanted;
+    if (before > 0) (void)munmap(from, before);
+    if (after > 0) (void)munmap(from + before + wanted, after);
+    *memory = from + before;
+    (void)madvise(*memory, wanted, MADV_HUGEPAGE); /* a wish: refused is fine */
+    return true;
+}
+
 static bool cpu_allocate(brc_device *device, int64_t bytes, void **memory, char reason[BRC_REASON_BYTES])
 {
-    const size_t alignment = bytes >= HUGE_PAGE ? HUGE_PAGE : 64;
     const size_t rounded = ((size_t)bytes + 63) / 64 * 64;
-    if (posix_memalign(memory, alignment, rounded) != 0) {
+    const bool large = bytes >= HUGE_PAGE;
+    if (large ? !map(bytes, memory) : posix_memalign(memory, 64, rounded) != 0) {
         snprintf(reason, BRC_REASON_BYTES, "the system has no such block");
         return false;
     }
-    if (alignment == HUGE_PAGE) (void)madvise(*memory, rounded, MADV_HUGEPAGE); /* a wish: refused is fine */
-    clear(device, *memory, (int64_t)rounded);
+    if (!large || !device->shares) clear(device, *memory, (int64_t)rounded); /* of several ranks each touches its own */
     return true;
 }
 
 static void cpu_release(brc_device *device, void *memory, int64_t bytes)
 {
     (void)device;
-    (void)bytes;
-    free(memory);
+    if (bytes >= HUGE_PAGE)
+        (void)munmap(memory, mapped(bytes));
+    else
+        free(memory);
 }
 
 static brc_status cpu_write(brc_device *device, void *memory, int64_t offset, const void *data, int64_t bytes)

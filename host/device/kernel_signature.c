@@ -31,8 +31,9 @@ static bool read_parameter(const char *from, const char *to, brc_kernel_signatur
         char letter;
         brc_use use;
     } words[] = {{"OWN", 'b', BRC_USE_OWN},       {"GATHER", 'b', BRC_USE_GATHER},   {"PUT", 'b', BRC_USE_PUT},
-                 {"UPDATE", 'b', BRC_USE_UPDATE}, {"SCATTER", 'b', BRC_USE_SCATTER}, {"int", 'i', BRC_USE_VALUE},
-                 {"state", 's', BRC_USE_VALUE},   {"coeff", 'c', BRC_USE_VALUE},     {"double", 'd', BRC_USE_VALUE}};
+                 {"UPDATE", 'b', BRC_USE_UPDATE}, {"FLAG", 'b', BRC_USE_FLAG},       {"SPREAD", 'b', BRC_USE_SPREAD},
+                 {"SCATTER", 'b', BRC_USE_SCATTER}, {"int", 'i', BRC_USE_VALUE},     {"state", 's', BRC_USE_VALUE},     {"coeff", 'c', BRC_USE_VALUE},
+                 {"double", 'd', BRC_USE_VALUE}};
     while (from < to && isspace((unsigned char)*from))
         ++from;
     if (memchr(from, '*', (size_t)(to - from))) return false;
@@ -90,11 +91,20 @@ static bool read_list(const char *from, const char *end, bool listed, brc_kernel
     return false;
 }
 
-/* Groups and rows by the name of the first parameter; those of passes over all elements are groups. */
+/* By the name of the first parameter; those of passes over all elements are groups. */
 static brc_array_of items_of(const brc_kernel_signature *k, bool pass, bool listed)
 {
     if (pass) return listed ? BRC_OF_NOTHING : BRC_OF_GROUPS;
-    return begins(k->name[0], "n_groups") ? BRC_OF_GROUPS : begins(k->name[0], "n_rows") ? BRC_OF_ROWS : BRC_OF_NOTHING;
+    static const struct {
+        const char *word;
+        brc_array_of items;
+    } words[] = {{"n_groups", BRC_OF_GROUPS},
+                 {"n_rows", BRC_OF_ROWS},
+                 {"n_numbers", BRC_OF_NUMBERS},
+                 {"n_blocks", BRC_OF_BLOCKS}};
+    for (size_t w = 0; w < sizeof words / sizeof *words; ++w)
+        if (begins(k->name[0], words[w].word)) return words[w].items;
+    return BRC_OF_NOTHING;
 }
 
 /* What is behind the bracket that opens the parameters, where the text at `word` is the kernel's name. */

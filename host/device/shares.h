@@ -1,6 +1,7 @@
-/* What of a device's arrays each rank (../base/ranks.h) computes. Every rank holds arrays of all rows in the same
- * order, and runs the same program. A launch whose items are rows or groups of rows, and which writes those alone, does
- * the rank's own range; what it gathers from other ranks' rows comes before it does, from those that compute them. Any
+/* What of a device's arrays each rank (../base/ranks.h) computes. Every rank has arrays of all rows in the same order,
+ * and runs the same program. A launch whose items are rows, groups, numbers or blocks of rows, and which writes those
+ * alone, does the rank's own range; what it gathers from other ranks' rows comes before it does, from those that compute
+ * them. Flags that it sets there go back. A launch over a list of rows is done by all: each is right at its own. Any
  * other launch, and what the host reads, is of arrays that are brought together first, and is done by all alike. So
  * every rank has the bits that one alone would have. Which rows a launch reads and writes follows from its signature
  * (kernel_signature.h): no model and no effect knows of ranks. */
@@ -26,8 +27,23 @@ typedef enum brc_array_of {
     BRC_OF_ROWS,
     BRC_OF_SLICES, /* numbers of the rows of a slice lie beside each other */
     BRC_OF_GROUPS,
-    BRC_OF_SLOTS
+    BRC_OF_SLOTS,
+    BRC_OF_NUMBERS, /* items alone: of rows, as many of each */
+    BRC_OF_BLOCKS   /* sums and the like of blocks of such numbers */
 } brc_array_of;
-void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes);
+/* number: bytes of one of the numbers in it. */
+void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes, int64_t number);
+
+/* Rows that launches keep to: arrays of rows are read and written at these alone. All ranks, with the same rows: n of
+ * them, in any order, some more than once; those below 0 or too large are no rows. *out: NULL or an older set, which is
+ * used again. One rank needs none: *out stays NULL. */
+typedef struct brc_rows_among brc_rows_among;
+brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *rows, brc_rows_among **out);
+/* Accepts NULL and a pointer to NULL. */
+void brc_rows_among_free(brc_rows_among **among);
+/* Launches from now on keep to the set, which is borrowed; NULL: to none any more. Returns the set until now. */
+brc_rows_among *brc_device_keep_among(brc_device *device, brc_rows_among *among);
+/* Whether several ranks share the rows. */
+bool brc_device_is_shared(const brc_device *device);
 
 #endif

@@ -1,14 +1,90 @@
-/* Shares of ranks inside of a device. */
+/* Shares of ranks inside of a device: which rows a rank owns and exchanges (shares_rows.c), how rows come (shares_bring.c),
+ * what the host writes and reads (shares_host.c), and what a launch asks for (shares.c). */
 #ifndef BRC_DEVICE_SHARES_INTERNAL_H
 #define BRC_DEVICE_SHARES_INTERNAL_H
 
+#include "../base/ranks.h"
 #include "device_internal.h"
 #include "shares.h"
 
-/* Launch what of the items this rank does, with what it reads there. */
-brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);
+/* Where the rows of an array are right: of all ranks; own ones and those that own bonds reach; own ones. */
+enum { BRC_EVERYWHERE, BRC_NEAR, BRC_MINE };
+
+/* Rows that go from rank to rank, ascending, those of a rank beside another after one another. */
+typedef struct brc_rows_beside {
+    int64_t *start; /* [n_beside + 1] where those of a rank begin */
+    int32_t *row;   /* [start[n_beside]] */
+    int64_t *slots; /* [start[n_beside] + 1] slots of the rows before */
+} brc_rows_beside;
+
+/* Messages of one kind, made at the first use. */
+typedef struct brc_messages {
+    struct brc_messages *next;
+    int64_t bytes;  /* of a row, or of one of its slots */
+    bool of_slots;  /* as many as the rows have slots */
+    bool back;      /* from those that read rows to those that compute them */
+    char *send, *receive;
+    brc_exchange *exchange;
+} brc_messages;
+
+struct brc_shares {
+    brc_rows_of_device rows;
+    int32_t *slot_start; /* [n_slices + 1] */
+    int32_t n_ranks, mine;
+    int32_t *first_slice; /* [n_ranks + 1] */
+    int32_t n_beside;     /* ranks that rows are exchanged with */
+    int32_t *beside;      /* [n_beside] */
+    brc_rows_beside give, take;
+    brc_messages *messages;
+    int64_t n_launches;
+    bool ranks_meet; /* some machine has several ranks, which see one another's memory */
+    brc_rows_among *among; /* of the launches now; NULL: none */
+};
+
+/* Rows that launches keep to, of all ranks. */
+struct brc_rows_among {
+    int32_t n;
+    int32_t *row;             /* [n] ascending */
+    int64_t *slots;           /* [n + 1] slots of the rows before */
+    int64_t *n_of, *slots_of; /* [n_ranks] rows of each rank, and their slots */
+    int64_t first;            /* place of the first of this rank */
+    int64_t room;             /* bytes of the next */
+    char *image;              /* what they bring, one after another */
+};
+
+/* ---- shares_rows.c ---- */
+/* Things of a kind before a slice; of BRC_OF_NOTHING none. */
+int64_t brc_share_before(const struct brc_shares *h, brc_array_of what, int32_t slice);
+int32_t brc_share_rank_of_row(const struct brc_shares *h, int32_t row);
+void brc_shares_free(brc_device *device);
+
+/* ---- shares_bring.c: all ranks alike ---- */
+/* The rows and slots that own bonds reach, of those that compute them. */
+brc_status brc_share_bring_near(brc_buffer *buffer);
+/* Rows of a set, to all ranks; where the array is right stays as it was. */
+brc_status brc_share_bring_among(brc_buffer *buffer, brc_rows_among *among);
+/* Marks that others have set at own rows. */
+brc_status brc_share_settle(brc_buffer *buffer);
 /* The whole array is on every rank. */
 brc_status brc_share_gather(brc_buffer *buffer);
-void brc_shares_free(brc_device *device);
+/* Before the first `bytes` of an array are copied to another: rows of arrays that lie alike stay where they are. */
+brc_status brc_share_copy(brc_buffer *to, brc_buffer *from, int64_t bytes);
+
+/* ---- shares_host.c ---- */
+/* Large pages for own rows, when it is known how the array lies. */
+void brc_share_pages(const brc_buffer *buffer);
+/* Pages of rows of others, which are out of date; not every time. */
+void brc_share_give_back(brc_buffer *buffer);
+/* A whole array, or zeros, from the host: own parts alone. false: it is not of parts, or not whole. */
+bool brc_share_write(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes);
+/* A large array of no parts, which the ranks of a machine have once. */
+bool brc_share_once(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes);
+bool brc_share_zero(brc_buffer *buffer);
+/* All ranks: a whole array to the host, which the device need not have; *done: it was. */
+brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool *done);
+
+/* ---- shares.c ---- */
+/* Launch what of the items this rank does, with what it reads there. */
+brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);
 
 #endif

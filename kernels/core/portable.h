@@ -8,7 +8,7 @@
  *   BRC_TARGET          defined for the OpenMP target reading of the C build
  *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
- * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, OWN, GATHER, PUT, UPDATE, SCATTER, LAW, ROUTINE,
+ * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, OWN, GATHER, PUT, UPDATE, FLAG, SPREAD, SCATTER, LAW, ROUTINE,
  * FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
 #define BRC_KERNELS_PORTABLE_H
@@ -214,11 +214,15 @@ LAW int brc_lane_any_short(lane a, lane b)
 
 /* How a kernel uses an array, by rows: those of the item's own elements, their slots, slices, faces and pairs, and all
  * others, as of neighbours. Read at its own; read at others too; written at its own; read and written at its own;
- * written, and others read or written too. tests/kernels/test_kernel_markers.py checks all. */
+ * raised to one and the same number at others too, neighbours by bonds; the same, and read at its own; written, and
+ * others read or written too.
+ * tests/kernels/test_kernel_markers.py checks all. */
 #define OWN(type) GLOBAL const type *restrict
 #define GATHER(type) GLOBAL const type *restrict
 #define PUT(type) GLOBAL type *restrict
 #define UPDATE(type) GLOBAL type *restrict
+#define FLAG(type) GLOBAL type *restrict
+#define SPREAD(type) GLOBAL type *restrict
 #define SCATTER(type) GLOBAL type *restrict
 
 /* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at

@@ -17,7 +17,7 @@
 /* Elements whose level (by_level), or who are touched as, `from`, and their neighbours are given the level `to` where
  * they have none. */
 KERNEL void ring_spread(int n_groups, int from, int to, int by_level, OWN(int) row_start, OWN(int) neighbour,
-                        OWN(int) touched, SCATTER(int) level)
+                        OWN(int) touched, SPREAD(int) level)
 {
     FOR_EACH_ITEM(group, n_groups) {
         GLOBAL const int *const origin = by_level ? level : touched;
@@ -37,9 +37,9 @@ KERNEL void ring_spread(int n_groups, int from, int to, int by_level, OWN(int) r
 }
 
 /* Ring 0 is where some number is above 0, or with above 0 where it is not. */
-KERNEL void ring_seed(int n, int above, OWN(int) number, PUT(int) touched)
+KERNEL void ring_seed(int n_rows, int above, OWN(int) number, PUT(int) touched)
 {
-    FOR_EACH_ITEM(e, n) { touched[e] = (number[e] > 0) == above; }
+    FOR_EACH_ITEM(e, n_rows) { touched[e] = (number[e] > 0) == above; }
 }
 
 /* All bits where an element belongs to one of the lists 0 to k. which 0: what is new, in list 0 those touched that were
@@ -62,7 +62,7 @@ LAW int rings_reach(lane_int touched, lane_int level)
 
 /* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum.
  * n and SCAN_BLOCK are multiples of W. */
-KERNEL void ring_count(int n_blocks, int n, int which, OWN(int) touched, OWN(int) level, PUT(int) count)
+KERNEL void ring_count(int n_blocks, int n, int which, OWN(int) touched, OWN(int) level, SCATTER(int) count)
 {
     FOR_EACH_ITEM(b, n_blocks) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
@@ -157,9 +157,9 @@ KERNEL void ring_replace(int n, state half_kick, OWN(int) list, OWN(state) mass,
 
 /* The same delta of all elements, whose forces were evaluated in their place: was [n][3] holds the forces from before,
  * then the delta. */
-KERNEL void ring_delta(int n, OWN(state) mass, OWN(state) force, UPDATE(state) was)
+KERNEL void ring_delta(int n_rows, OWN(state) mass, OWN(state) force, UPDATE(state) was)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         for (int c = 0; c < 3; ++c) {
             const brc_size at = (brc_size)e * 3 + c;
             was[at] = (force[at] * force[at] - was[at] * was[at]) / mass[e];

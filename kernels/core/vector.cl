@@ -1,15 +1,15 @@
 /* Vectors of state numbers for the static solver and the power iteration. Sums are taken over fixed blocks of 1024
  * numbers, in order, so that they do not depend on the number of threads. */
 
-KERNEL void vector_axpy(int n, state a, OWN(state) x, UPDATE(state) y)
+KERNEL void vector_axpy(int n_numbers, state a, OWN(state) x, UPDATE(state) y)
 {
-    FOR_EACH_ITEM(i, n) { y[i] += a * x[i]; }
+    FOR_EACH_ITEM(i, n_numbers) { y[i] += a * x[i]; }
 }
 
 /* y = x */
-KERNEL void vector_copy(int n, OWN(state) x, PUT(state) y)
+KERNEL void vector_copy(int n_numbers, OWN(state) x, PUT(state) y)
 {
-    FOR_EACH_ITEM(i, n) { y[i] = x[i]; }
+    FOR_EACH_ITEM(i, n_numbers) { y[i] = x[i]; }
 }
 
 /* y[i] = x[index[i]] */
@@ -19,9 +19,9 @@ KERNEL void vector_gather(int n, OWN(int) index, GATHER(state) x, PUT(state) y)
 }
 
 /* y = x + a y */
-KERNEL void vector_xpay(int n, state a, OWN(state) x, UPDATE(state) y)
+KERNEL void vector_xpay(int n_numbers, state a, OWN(state) x, UPDATE(state) y)
 {
-    FOR_EACH_ITEM(i, n) { y[i] = x[i] + a * y[i]; }
+    FOR_EACH_ITEM(i, n_numbers) { y[i] = x[i] + a * y[i]; }
 }
 
 /* partial[b] = sum of x y over block b of n numbers in all. */

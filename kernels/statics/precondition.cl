@@ -1,9 +1,9 @@
 /* Diagonal blocks as preconditioner of static solves. */
 
 /* z = P r with a symmetric 3 x 3 block (xx yy zz yz xz xy) per element. */
-KERNEL void block_precondition(int n, OWN(state) block, OWN(state) r, PUT(state) z)
+KERNEL void block_precondition(int n_rows, OWN(state) block, OWN(state) r, PUT(state) z)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         GLOBAL const state *p = block + (brc_size)e * 6;
         const state x = r[(brc_size)e * 3], y = r[(brc_size)e * 3 + 1], w = r[(brc_size)e * 3 + 2];
         z[(brc_size)e * 3] = p[0] * x + p[5] * y + p[4] * w;
@@ -14,10 +14,10 @@ KERNEL void block_precondition(int n, OWN(state) block, OWN(state) r, PUT(state)
 
 /* z = P r with a symmetric 6 x 6 block per element, upper triangle by rows [n][21]; r and z are split into forces or
  * displacements [n][3] and torques or rotations [n][3]. */
-KERNEL void block6_precondition(int n, OWN(state) block, OWN(state) force, OWN(state) torque, PUT(state) move,
+KERNEL void block6_precondition(int n_rows, OWN(state) block, OWN(state) force, OWN(state) torque, PUT(state) move,
                                 PUT(state) turn)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         GLOBAL const state *p = block + (brc_size)e * 21;
         state r[6], z[6];
         for (int c = 0; c < 3; ++c) {

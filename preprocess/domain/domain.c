@@ -6,46 +6,66 @@
 #include <math.h>
 #include <string.h>
 
+/* Names and members: what wall_name and sets point to. */
+static brc_status each_inner_block(brc_domain *d, brc_domain_visit visit, void *self)
+{
+    for (int32_t w = 0; d->wall_name && w < d->n_walls; ++w)
+        BRC_TRY(visit(self, (void **)&d->wall_name[w]));
+    for (int32_t s = 0; d->sets && s < d->n_sets; ++s) {
+        BRC_TRY(visit(self, (void **)&d->sets[s].name));
+        BRC_TRY(visit(self, (void **)&d->sets[s].members));
+    }
+    return BRC_OK;
+}
+
+brc_status brc_domain_each_block(brc_domain *d, bool down, brc_domain_visit visit, void *self)
+{
+    void **const block[] = {(void **)&d->position,
+                            (void **)&d->volume,
+                            (void **)&d->centroid,
+                            (void **)&d->inertia,
+                            (void **)&d->region,
+                            (void **)&d->body,
+                            (void **)&d->grain,
+                            (void **)&d->radius,
+                            (void **)&d->row_start,
+                            (void **)&d->neighbour,
+                            (void **)&d->twin,
+                            (void **)&d->bond,
+                            (void **)&d->area_vector,
+                            (void **)&d->face_centroid,
+                            (void **)&d->bond_half_edge,
+                            (void **)&d->free_start,
+                            (void **)&d->free_element,
+                            (void **)&d->free_area_vector,
+                            (void **)&d->free_centroid,
+                            (void **)&d->free_wall,
+                            (void **)&d->vertex_start,
+                            (void **)&d->vertex,
+                            (void **)&d->free_polygon_start,
+                            (void **)&d->free_polygon,
+                            (void **)&d->provenance,
+                            (void **)&d->wall_name,
+                            (void **)&d->sets};
+    if (!down) BRC_TRY(each_inner_block(d, visit, self));
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
+        BRC_TRY(visit(self, block[k]));
+    return down ? each_inner_block(d, visit, self) : BRC_OK;
+}
+
+static brc_status free_block(void *self, void **block)
+{
+    (void)self;
+    brc_memory_free(*block);
+    return BRC_OK;
+}
+
 void brc_domain_free(brc_domain **domain)
 {
     if (!domain || !*domain) return;
-    brc_domain *d = *domain;
-    void *const block[] = {d->position,
-                           d->volume,
-                           d->centroid,
-                           d->inertia,
-                           d->region,
-                           d->body,
-                           d->grain,
-                           d->radius,
-                           d->row_start,
-                           d->neighbour,
-                           d->twin,
-                           d->bond,
-                           d->area_vector,
-                           d->face_centroid,
-                           d->bond_half_edge,
-                           d->free_start,
-                           d->free_element,
-                           d->free_area_vector,
-                           d->free_centroid,
-                           d->free_wall,
-                           d->vertex_start,
-                           d->vertex,
-                           d->free_polygon_start,
-                           d->free_polygon,
-                           d->provenance};
-    for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
-        brc_memory_free(block[k]);
-    for (int32_t w = 0; d->wall_name && w < d->n_walls; ++w)
-        brc_memory_free(d->wall_name[w]);
-    for (int32_t s = 0; d->sets && s < d->n_sets; ++s) {
-        brc_memory_free(d->sets[s].name);
-        brc_memory_free(d->sets[s].members);
-    }
-    brc_memory_free(d->wall_name);
-    brc_memory_free(d->sets);
-    brc_memory_free(d);
+    (void)brc_domain_each_block(*domain, false, free_block, NULL);
+    brc_machine_memory_free(&(*domain)->shared);
+    brc_memory_free(*domain);
     *domain = NULL;
 }
 

@@ -8,7 +8,9 @@
 #ifndef BRC_PREPROCESS_DOMAIN_H
 #define BRC_PREPROCESS_DOMAIN_H
 
+#include "../../host/base/machine_memory.h"
 #include "../../host/base/status.h"
+#include <stdbool.h>
 #include <stdint.h>
 
 typedef enum brc_set_kind { BRC_SET_FACES, BRC_SET_ELEMENTS } brc_set_kind;
@@ -103,10 +105,16 @@ typedef struct brc_domain {
     double bounds[2][3]; /* smallest and largest corner [m] */
     brc_quality quality;
     char *provenance; /* how it was made, one line of text; owned */
+
+    brc_machine_memory shared; /* the arrays lie there, for all ranks of the machine (domain_ranks.h); else none */
 } brc_domain;
 
 /* Free a domain and all its arrays; accepts a pointer to NULL; sets *domain to NULL. */
 void brc_domain_free(brc_domain **domain);
+/* Every block that a domain owns, what blocks point to before them (or, down, after them): visit gets where its
+ * pointer is kept. Stops at the first failure. */
+typedef brc_status (*brc_domain_visit)(void *self, void **block);
+brc_status brc_domain_each_block(brc_domain *domain, bool down, brc_domain_visit visit, void *self);
 /* Append a copy of the name to the walls; wall_name has room for it. BRC_NO_MEMORY. */
 brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name);
 /* Index of the named set, -1 when there is none. */

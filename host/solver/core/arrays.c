@@ -85,7 +85,7 @@ static brc_status new_array(brc_simulation *s, brc_buffer **out, int64_t count, 
 {
     const int32_t n_rows = s->layout->n_rows;
     BRC_TRY(brc_buffer_create(s->device, out, (count + SPARE) * bytes, what));
-    if (count > 0 && count % n_rows == 0) brc_buffer_is_of(*out, BRC_OF_ROWS, count / n_rows * bytes);
+    if (count > 0 && count % n_rows == 0) brc_buffer_is_of(*out, BRC_OF_ROWS, count / n_rows * bytes, bytes);
     return BRC_OK;
 }
 

@@ -41,6 +41,7 @@ struct brc_core {
     brc_buffer *orientation, *spin, *torque;                     /* published */
     brc_buffer *moved, *lost_numerical, *lost_damping;           /* only with these effects */
     brc_buffer *elastic_energy, *stabilisation_energy, *kinetic; /* [n_rows] scratch of the ledger */
+    brc_buffer *listed;                                          /* kinetic, as scratch for numbers of a list */
     brc_buffer *partial;                                         /* block sums */
 
     int n_effects; /* of this run (hooks.c) */

@@ -117,13 +117,21 @@ brc_buffer *brc_field_named(const brc_field_table *table, const void *owner, con
 /* How an array of a table lies; what no rank has a share of lies anyhow. */
 static void tell_order(brc_buffer *buffer, const brc_field_row *field, const brc_wants *wants)
 {
-    const int64_t bytes = field->width * (field->number == BRC_FIELD_INT     ? (int64_t)sizeof(int32_t)
-                                          : field->number == BRC_FIELD_STATE ? wants->state_bytes
-                                                                             : wants->coeff_bytes);
-    if (field->count == brc_each_row) brc_buffer_is_of(buffer, BRC_OF_ROWS, bytes);
-    if (field->count == brc_each_block) brc_buffer_is_of(buffer, BRC_OF_SLICES, bytes * wants->layout->slice);
-    if (field->count == brc_each_group) brc_buffer_is_of(buffer, BRC_OF_GROUPS, bytes);
-    if (field->count == brc_each_entry) brc_buffer_is_of(buffer, BRC_OF_SLOTS, bytes * wants->layout->slice);
+    static const struct {
+        int64_t (*count)(const brc_wants *);
+        brc_array_of what;
+    } orders[] = {{brc_each_row, BRC_OF_ROWS},
+                  {brc_each_block, BRC_OF_SLICES},
+                  {brc_each_group, BRC_OF_GROUPS},
+                  {brc_each_entry, BRC_OF_SLOTS}};
+    const int64_t number = field->number == BRC_FIELD_INT     ? (int64_t)sizeof(int32_t)
+                           : field->number == BRC_FIELD_STATE ? wants->state_bytes
+                                                              : wants->coeff_bytes;
+    brc_array_of what = BRC_OF_NOTHING;
+    for (size_t k = 0; k < sizeof orders / sizeof *orders; ++k)
+        if (field->count == orders[k].count) what = orders[k].what;
+    const bool of_slices = what == BRC_OF_SLICES || what == BRC_OF_SLOTS;
+    brc_buffer_is_of(buffer, what, number * field->width * (of_slices ? wants->layout->slice : 1), number);
 }
 
 brc_status brc_fields_create(brc_device *device, const brc_field_table *table, const brc_wants *wants, void *owner)

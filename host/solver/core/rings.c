@@ -1,5 +1,6 @@
 #include "rings.h"
 #include "core_internal.h"
+#include "../../device/shares.h"
 
 enum { BLOCK = 1024 }; /* SCAN_BLOCK of scan.cl */
 
@@ -93,6 +94,7 @@ void brc_rings_free(brc_rings **rings)
     if (!r) return;
     brc_fields_free(&brc_ring_fields, r);
     brc_fields_free(&brc_ring_list_fields, &r->around);
+    brc_rows_among_free(&r->around.among);
     brc_memory_free(r->count_read);
     brc_memory_free(r);
     *rings = NULL;
@@ -106,6 +108,19 @@ static brc_status spread(brc_simulation *s, brc_rings *r, bool by_level, int fro
                    {"by_level", BRC_INT(by_level ? 1 : 0)});
 }
 
+/* Several ranks bring what passes over the list read. */
+static brc_status share_list(brc_simulation *s, brc_rings *r, brc_ring_list *list)
+{
+    int32_t *own = NULL;
+    const int32_t n = list->n[BRC_RING_KINDS - 1];
+    if (list != &r->around || !brc_device_is_shared(s->device)) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &own, n, "rings around broken bonds"));
+    brc_status status = brc_buffer_read(list->upto[BRC_RING_KINDS - 1], 0, own, n * (int64_t)sizeof *own);
+    if (status == BRC_OK) status = brc_rows_among_make(s->device, n, own, &list->among);
+    brc_memory_free(own);
+    return status;
+}
+
 enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in rings.cl */
 
 static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
@@ -116,9 +131,10 @@ static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring
     BRC_TRY(brc_buffer_read(r->count, 0, r->count_read, brc_buffer_bytes(r->count)));
     for (int k = 0; k < BRC_RING_KINDS; ++k)
         out->n[k] = r->count_read[k * (n_blocks + 1) + n_blocks];
-    return BRC_RUN(r->list_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}, {"next", BRC_BUF(r->count)},
-                   {"upto_0", BRC_BUF(out->upto[0])}, {"upto_1", BRC_BUF(out->upto[1])},
-                   {"upto_2", BRC_BUF(out->upto[2])}, {"upto_3", BRC_BUF(out->upto[3])});
+    BRC_TRY(BRC_RUN(r->list_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}, {"next", BRC_BUF(r->count)},
+                    {"upto_0", BRC_BUF(out->upto[0])}, {"upto_1", BRC_BUF(out->upto[1])},
+                    {"upto_2", BRC_BUF(out->upto[2])}, {"upto_3", BRC_BUF(out->upto[3])}));
+    return share_list(s, r, out);
 }
 
 brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
@@ -181,7 +197,10 @@ brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pas
     brc_given all[MOST_GIVEN + 3] = {{"n", BRC_INT(n)}, {"list", BRC_BUF(list->upto[ring])}};
     for (int k = 0; given && given[k].name && k < MOST_GIVEN; ++k)
         all[2 + k] = given[k];
-    return brc_pass_run_on(listed, (n + lanes - 1) / lanes, request, NULL, all);
+    brc_rows_among *const outer = brc_device_keep_among(s->device, list->among);
+    const brc_status status = brc_pass_run_on(listed, (n + lanes - 1) / lanes, request, NULL, all);
+    brc_device_keep_among(s->device, outer);
+    return status;
 }
 
 /* Of laws that have an energy, and steps of velocity Verlet. */
@@ -225,6 +244,9 @@ brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, br
     const int32_t n = list->n[k];
     *out = 0;
     if (n == 0) return BRC_OK;
-    BRC_TRY(brc_vector_gather(s, n, list->upto[k], x, s->core->kinetic));
-    return brc_vector_sum(s, s->core->kinetic, n, out);
+    brc_rows_among *const outer = brc_device_keep_among(s->device, list->among);
+    const brc_status status = brc_vector_gather(s, n, list->upto[k], x, s->core->listed);
+    brc_device_keep_among(s->device, outer);
+    BRC_TRY(status);
+    return brc_vector_sum(s, s->core->listed, n, out);
 }

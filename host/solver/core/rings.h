@@ -13,6 +13,7 @@ enum { BRC_RING_KINDS = 4 };
 typedef struct brc_ring_list {
     brc_buffer *upto[BRC_RING_KINDS];
     int32_t n[BRC_RING_KINDS];
+    struct brc_rows_among *among; /* all of them, for several ranks (device/shares.h) */
 } brc_ring_list;
 
 typedef struct brc_rings {

@@ -74,6 +74,7 @@ brc_status brc_simulation_fields_create(brc_simulation *s)
 {
     double *upright = NULL;
     BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s->core));
+    BRC_TRY(brc_buffer_create_scratch(s->core->kinetic, &s->core->listed));
     if (!s->model->turns) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
     for (int64_t r = 0; r < s->layout->n_rows; ++r)
@@ -85,7 +86,9 @@ brc_status brc_simulation_fields_create(brc_simulation *s)
 
 void brc_simulation_fields_free(brc_simulation *s)
 {
-    if (s->core) brc_fields_free(&brc_state_fields, s->core);
+    if (!s->core) return;
+    brc_buffer_free(&s->core->listed);
+    brc_fields_free(&brc_state_fields, s->core);
 }
 
 /* Displacement gradients and stresses of dlsm follow from the displacements; the strains of dlsm-published do so only

@@ -24,10 +24,10 @@ LAW state contact_stretch(OWN(coeff) gradient, int e)
 
 /* Present positions, radii and maps of all elements. bounding_radius [n]: radius about the element's place in the
  * reference [m]. */
-KERNEL void contact_extent(int n, int pose, OWN(state) place, OWN(state) displacement, OWN(coeff) gradient,
+KERNEL void contact_extent(int n_rows, int pose, OWN(state) place, OWN(state) displacement, OWN(coeff) gradient,
                            OWN(state) orientation, OWN(state) bounding_radius, PUT(state) built, PUT(state) posed)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         for (int c = 0; c < 3; ++c)
             built[(brc_size)e * 4 + c] = place[(brc_size)e * 3 + c] + displacement[(brc_size)e * 3 + c];
         built[(brc_size)e * 4 + 3] = pose == 1 ? bounding_radius[e] * contact_stretch(gradient, e) : bounding_radius[e];

@@ -26,11 +26,11 @@ LAW squat contact_quaternion(smat3 r)
 /* Cells without bonds, which are exposed, become rigid: they keep the rotation of their deformation and begin without
  * spin, since a cell's mass is a point. Those whose faces a load holds or pulls (loaded [n]: 1, else 0) do not turn:
  * their H stays 0, by which held faces and tractions act on them. found [n]: rigid ones. */
-KERNEL void contact_detach(int n, OWN(int) exposed, OWN(int) id, OWN(int) loaded, OWN(int) row_start,
+KERNEL void contact_detach(int n_rows, OWN(int) exposed, OWN(int) id, OWN(int) loaded, OWN(int) row_start,
                            OWN(int) neighbour, OWN(coeff) gradient, UPDATE(int) rigid, UPDATE(state) turned,
                            PUT(state) found)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         int bonds = 0;
         if (exposed[e] && !rigid[e] && !loaded[e] && id[e] >= 0) {
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot)
@@ -47,9 +47,9 @@ KERNEL void contact_detach(int n, OWN(int) exposed, OWN(int) id, OWN(int) loaded
 }
 
 /* H of rigid cells: their rotation, so that everything that reads H sees where they are, and no strain. */
-KERNEL void contact_pose(int n, OWN(int) rigid, OWN(state) turned, PUT(coeff) gradient)
+KERNEL void contact_pose(int n_rows, OWN(int) rigid, OWN(state) turned, PUT(coeff) gradient)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         if (rigid[e]) {
             const smat3 r = squat_matrix_minus_identity(squat_load(turned, e));
             GLOBAL coeff *restrict to = gradient + (brc_size)e * 9;
@@ -164,10 +164,10 @@ KERNEL void contact_turn(int n_groups, state kick, state drift, state extra, OWN
 }
 
 /* l.I^-1 l / 2 [J]; 0 of cells that are not rigid. */
-KERNEL void contact_spin_energy(int n, OWN(int) rigid, OWN(state) inertia, OWN(state) momentum, OWN(state) turned,
+KERNEL void contact_spin_energy(int n_rows, OWN(int) rigid, OWN(state) inertia, OWN(state) momentum, OWN(state) turned,
                                 PUT(state) out)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         out[e] = 0;
         if (rigid[e]) {
             const svec3 p = rigid_rotate(rigid_back(squat_load(turned, e)), svec3_load(momentum, (brc_size)e * 3));

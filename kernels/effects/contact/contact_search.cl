@@ -10,9 +10,9 @@
 
 /* Elements that lost a bond are exposed from then on. fresh [n]: 1 for those that lost one since this was asked last;
  * seen [n]: what they had lost then. */
-KERNEL void contact_expose(int n, OWN(state) broken, UPDATE(int) seen, PUT(int) exposed, PUT(int) fresh)
+KERNEL void contact_expose(int n_rows, OWN(state) broken, UPDATE(int) seen, PUT(int) exposed, PUT(int) fresh)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         const int lost = (int)broken[e];
         fresh[e] = lost != seen[e];
         seen[e] = lost;

@@ -24,10 +24,10 @@ LAW void cells_put_record(int group, lane_sym3 stress, failure_scale scale, UPDA
 }
 
 /* The bonds that elements chose are marked; stress [n]: of the element that chose [Pa]; found [n]: 1 where one did. */
-KERNEL void cells_mark_chosen(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) choice, OWN(coeff) stress,
-                              PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched, PUT(state) found)
+KERNEL void cells_mark_chosen(int n_rows, OWN(int) row_start, OWN(int) neighbour, OWN(int) choice, OWN(coeff) stress,
+                              PUT(int) mark, PUT(coeff) measure, FLAG(int) touched, PUT(state) found)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         const int chosen = choice[e];
         found[e] = chosen < 0 ? STATE(0) : STATE(1);
         for (int slot = row_start[e / C]; chosen >= 0 && slot < row_start[e / C + 1]; ++slot) {
@@ -42,7 +42,7 @@ KERNEL void cells_mark_chosen(int n, OWN(int) row_start, OWN(int) neighbour, OWN
 }
 
 /* Volume of record over each element and its neighbours over unbroken bonds, weight [n], after bonds broke. */
-KERNEL void cells_weigh(int n, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record, PUT(coeff) weight)
+KERNEL void cells_weigh(int n_rows, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record, PUT(coeff) weight)
 {
-    FOR_EACH_ITEM(e, n) { weight[e] = fracture_weight(e, row_start, neighbour, record); }
+    FOR_EACH_ITEM(e, n_rows) { weight[e] = fracture_weight(e, row_start, neighbour, record); }
 }

@@ -5,20 +5,20 @@
  *
  * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa];
  * twin: the entry of the same bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it
- * breaks at the end of this step; measure: its stress then [Pa]. found: of an element or group of elements, how many
- * bonds it marked. touched [n]: 1 for the two elements of every marked bond, 2 once it broke: ring 0 of rings.cl. */
+ * breaks at the end of this step; measure: its stress then [Pa]. found, n_marked: of an element or group of elements,
+ * how many bonds it marked. touched [n]: 1 for the two elements of every marked bond, 2 once it broke: ring 0 of rings.cl. */
 
 #define CELLS_NEVER REAL(1e30)
 #define CELLS_TENSION 1
 #define CELLS_SHEAR 3
 #define CELLS_DETACHED 4
 
-/* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; found [n_groups]. With
+/* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; n_marked [n_groups]. With
  * share 1 only groups that the force pass told to look at their bonds do. */
 KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
                         OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
                         GATHER(coeff) plane, UPDATE(int) look, OWN(coeff) limit, PUT(int) mark, PUT(coeff) measure,
-                        SCATTER(int) touched, PUT(state) found)
+                        FLAG(int) touched, PUT(state) n_marked)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int first = group * W;
@@ -57,7 +57,7 @@ KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) 
                 }
             }
         }
-        found[group] = (state)marked;
+        n_marked[group] = (state)marked;
     }
 }
 
@@ -196,11 +196,11 @@ LAW coeff cells_stiffness(cells_sym inverse, cells_sym squares, state x, state y
 
 /* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its
  * neighbours no longer hold marks the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or
- * it has become stiffer than stiffest [n] [1/m^2], which the time step does not bear. found [n_groups]. */
+ * it has become stiffer than stiffest [n] [1/m^2], which the time step does not bear. n_marked [n_groups]. */
 KERNEL void cells_rebuild(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
                           OWN(coeff) alive, OWN(coeff) limit, OWN(coeff) inv_volume, OWN(coeff) support,
                           OWN(coeff) stiffest, UPDATE(int) changed, PUT(coeff) least, PUT(coeff) inv_shape,
-                          PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched, PUT(state) found)
+                          PUT(int) mark, PUT(coeff) measure, FLAG(int) touched, PUT(state) n_marked)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(changed, (brc_size)group * W);
@@ -238,7 +238,7 @@ KERNEL void cells_rebuild(int n_groups, OWN(int) row_start, OWN(int) neighbour, 
             }
             least[e] = weakest;
         }
-        found[group] = (state)count;
+        n_marked[group] = (state)count;
     }
 }
 

@@ -67,10 +67,10 @@ KERNEL void fracture_stress(int n_groups, int level, OWN(int) row_start, OWN(int
 /* Level 2: the neighbours' neighbours too, each element once. SECOND_SHELL: places of the table that knows who was
  * counted; the host refuses samples with elements that have more members. */
 #define SECOND_SHELL 512
-KERNEL void fracture_stress_second(int n, GATHER(int) row_start, GATHER(int) neighbour, GATHER(coeff) record,
+KERNEL void fracture_stress_second(int n_rows, GATHER(int) row_start, GATHER(int) neighbour, GATHER(coeff) record,
                                    PUT(coeff) stress)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         int seen[SECOND_SHELL];
         coeff sum[7];
         for (int k = 0; k < SECOND_SHELL; ++k) seen[k] = -1;
@@ -251,12 +251,12 @@ KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager
 }
 
 /* The same from stresses [n][6]. */
-KERNEL void fracture_choose(int n, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
+KERNEL void fracture_choose(int n_rows, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
                             OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement,
                             OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest, OWN(coeff) stress,
                             PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         const failure_shear shear = {drucker_prager, slope, friction};
         const failure_stress s = fracture_stress_of(stress, e);
         choice[e] = -1;
@@ -266,11 +266,11 @@ KERNEL void fracture_choose(int n, int step, int drucker_prager, coeff slope, co
 }
 
 /* How far every element is on its way to failure [n]. */
-KERNEL void fracture_ratio(int n, int drucker_prager, coeff slope, coeff friction, int weighted, OWN(int) row_start,
+KERNEL void fracture_ratio(int n_rows, int drucker_prager, coeff slope, coeff friction, int weighted, OWN(int) row_start,
                            OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) limits,
                            OWN(coeff) factor, OWN(coeff) stress, PUT(coeff) ratio)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         const failure_shear shear = {drucker_prager, slope, friction};
         const failure_stress s = fracture_stress_of(stress, e);
         const failure_limits limit = fracture_limits_of(limits, e);

@@ -2,14 +2,14 @@
  * break, and the least squares that are left. Arrays of entries as in cells.cl, whose cells_break removes the
  * bonds. */
 
-/* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; found [n_groups]: how many.
+/* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; n_marked [n_groups]: how many.
  * Only groups of elements where one may be look. */
 KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
                             OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
                             GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
                             coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit,
-                            OWN(coeff) bond_ratio, PUT(int) mark, PUT(coeff) measure, SCATTER(int) touched,
-                            PUT(state) found)
+                            OWN(coeff) bond_ratio, PUT(int) mark, PUT(coeff) measure, FLAG(int) touched,
+                            PUT(state) n_marked)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
@@ -36,7 +36,7 @@ KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(i
 #undef MARK
             }
         }
-        found[group] = (state)marked;
+        n_marked[group] = (state)marked;
     }
 }
 
@@ -44,11 +44,11 @@ KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(i
  * Where its smallest eigenvalue is not above support [n] the element has no strain any more (AGH19 section 2.2: fewer
  * than three contacts); keeping the directions that are spanned makes what is left run away. Marks are cleared.
  * area_weights: w = S/|R| instead of 1. */
-KERNEL void published_rebuild(int n, int area_weights, OWN(int) row_start, OWN(coeff) branch, OWN(coeff) area,
+KERNEL void published_rebuild(int n_rows, int area_weights, OWN(int) row_start, OWN(coeff) branch, OWN(coeff) area,
                               OWN(coeff) alive, OWN(coeff) support, UPDATE(int) changed, PUT(coeff) inv_shape,
                               PUT(coeff) spanned, PUT(int) mark)
 {
-    FOR_EACH_ITEM(e, n) {
+    FOR_EACH_ITEM(e, n_rows) {
         if (changed[e]) {
             cells_sym a = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0}, projector = {1, 1, 1, 0, 0, 0};
             changed[e] = 0;

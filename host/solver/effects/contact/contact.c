@@ -1,5 +1,6 @@
 /* Contact in the course of a run: when to look for pairs, what they add to forces, energy and the time step. */
 #include "contact_internal.h"
+#include "../../../device/shares.h"
 #include "../fracture/ahead.h"
 #include "../fracture/breaking.h"
 #include "../strikers/striker_contact.h"
@@ -75,6 +76,8 @@ void brc_contact_free(brc_simulation *s)
     brc_buffer_free(&c->most_moved);
     if (c->bonded) brc_fields_free(&brc_bonded_list_fields, c->bonded);
     brc_memory_free(c->bonded);
+    brc_rows_among_free(&c->listed);
+    brc_rows_among_free(&c->paired);
     brc_memory_free(c->law_of);
     brc_memory_free(c);
     s->contact = NULL;
@@ -182,11 +185,15 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
     const int32_t n = s->layout->n_rows;
     const int32_t n_items = whole ? l->n_pairs : c->n_todo;
     if (n_items == 0) return BRC_OK;
-    if (brc_has_spheres(s))
-        return BRC_RUN(c->pass.spheres, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"dt", BRC_STATE(dt)},
-                       {"n", BRC_INT(n)});
-    return BRC_RUN(c->pass.cells, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"broke", BRC_INT(broke ? 1 : 0)},
-                   {"dt", BRC_STATE(dt)}, {"n", BRC_INT(n)});
+    brc_rows_among *const outer = brc_device_keep_among(s->device, c->paired);
+    const brc_status status =
+        brc_has_spheres(s)
+            ? BRC_RUN(c->pass.spheres, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"dt", BRC_STATE(dt)},
+                      {"n", BRC_INT(n)})
+            : BRC_RUN(c->pass.cells, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"broke", BRC_INT(broke ? 1 : 0)},
+                      {"dt", BRC_STATE(dt)}, {"n", BRC_INT(n)});
+    brc_device_keep_among(s->device, outer);
+    return status;
 }
 
 static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force,
@@ -230,7 +237,10 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
-    return BRC_RUN(c->pass.gather_moments, l->n_with_pairs, {"book", BRC_INT(book)});
+    brc_rows_among *const outer = brc_device_keep_among(s->device, c->paired);
+    const brc_status status = BRC_RUN(c->pass.gather_moments, l->n_with_pairs, {"book", BRC_INT(book)});
+    brc_device_keep_among(s->device, outer);
+    return status;
 }
 
 brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)

@@ -79,6 +79,7 @@ struct brc_contact_state {
     brc_buffer *flag, *flag_start, *todo; /* of pairs; todo: those that the last breaks may have changed */
     int64_t todo_room, sums_room;
     int32_t n_todo;
+    struct brc_rows_among *listed, *paired; /* of several ranks: elements of the list, of its pairs (device/shares.h) */
     bool always_whole; /* for comparison: look for all pairs after breaks, and let openings follow by evaluations of
                           all */
     double energy_from_breaks; /* energy that surfaces held when their bond broke [J] */

@@ -1,6 +1,7 @@
 /* The list of pairs that may touch: a grid of hashed cells, sorted on the device (contact_search.cl,
  * scan.cl). */
 #include "contact_internal.h"
+#include "../../../device/shares.h"
 #include "../strikers/striker_contact.h"
 #include <math.h>
 
@@ -391,6 +392,24 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
                    {"stride", BRC_INT(carried ? stride_of(c) : 0)});
 }
 
+/* The first n numbers of a list of rows, as the set that passes keep to. */
+static brc_status keep_to(brc_simulation *s, brc_buffer *list, int64_t n, brc_rows_among **out)
+{
+    int32_t *rows = NULL;
+    if (!brc_device_is_shared(s->device)) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &rows, n, "elements of contact"));
+    brc_status status = brc_buffer_read(list, 0, rows, n * (int64_t)sizeof *rows);
+    if (status == BRC_OK) status = brc_rows_among_make(s->device, (int32_t)n, rows, out);
+    brc_memory_free(rows);
+    return status;
+}
+
+static brc_status find_pairs(brc_simulation *s, bool whole, bool carried)
+{
+    BRC_TRY(find_entries(s, whole));
+    return number_pairs(s, carried);
+}
+
 /* whole: all is looked for; carried: results of pairs go over. */
 static brc_status make_list(brc_simulation *s, bool whole, bool carried)
 {
@@ -403,8 +422,12 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     c->lists += 1;
     BRC_TRY(list_exposed(s));
     if (c->now.n_listed == 0) return BRC_OK;
-    BRC_TRY(find_entries(s, whole));
-    return number_pairs(s, carried);
+    BRC_TRY(keep_to(s, c->now.list, c->now.n_listed, &c->listed));
+    brc_rows_among *const outer = brc_device_keep_among(s->device, c->listed);
+    const brc_status status = find_pairs(s, whole, carried);
+    brc_device_keep_among(s->device, outer);
+    BRC_TRY(status);
+    return c->now.n_pairs > 0 ? keep_to(s, c->now.ends, 2 * (int64_t)c->now.n_pairs, &c->paired) : BRC_OK;
 }
 
 brc_status brc_contact_list_again(brc_simulation *s)

@@ -1,6 +1,7 @@
 #include "ahead.h"
 #include "cell_breaks_internal.h"
 #include "../contact/contact.h"
+#include "../../../device/shares.h"
 #include "../../core/rings.h"
 #include "strengths.h"
 #include "../strikers/striker_contact.h"
@@ -140,12 +141,23 @@ static brc_status create_cohesion(brc_simulation *s, const brc_strengths *streng
     return s->model->cohesion ? s->model->cohesion->create(s, strengths) : BRC_OK;
 }
 
+/* Arrays in the room of others. */
+static brc_status share_room(brc_simulation *s, brc_cell_breaks *c)
+{
+    const int64_t bytes = s->wants.state_bytes;
+    BRC_TRY(brc_buffer_create_scratch(c->measure, &c->delta));
+    BRC_TRY(brc_buffer_create_scratch(c->found, &c->n_marked));
+    brc_buffer_is_of(c->n_marked, BRC_OF_GROUPS, bytes, bytes);
+    return BRC_OK;
+}
+
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
     brc_strengths strengths = {0};
     brc_status status = BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
     BRC_TRY(brc_fields_create(s->device, &brc_cell_break_fields, &s->wants, s->fracture->cells));
+    BRC_TRY(share_room(s, s->fracture->cells));
     s->fracture->cells->by_element = !brc_scene_breaks_by_bond(s->scene, s->scene->model.kind);
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
@@ -164,6 +176,8 @@ void brc_cell_breaks_free(brc_simulation *s)
     brc_cell_breaks *c = s->fracture->cells;
     if (!c) return;
     brc_rings_free(&c->rings);
+    brc_buffer_free(&c->delta);
+    brc_buffer_free(&c->n_marked);
     brc_fields_free(&brc_cell_break_fields, c);
     brc_memory_free(c);
     s->fracture->cells = NULL;
@@ -192,7 +206,7 @@ static brc_status mark_bonds(brc_simulation *s, double share, double *n)
     brc_cell_breaks *c = s->fracture->cells;
     if (c->by_element) return brc_cell_criteria_mark(s, n);
     BRC_TRY(s->model->breaking->mark(s, share));
-    return brc_ahead_count(s, c->found, s->n_groups, n);
+    return brc_ahead_count(s, c->n_marked, s->n_groups, n);
 }
 
 /* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held.

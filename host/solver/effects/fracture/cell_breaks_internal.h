@@ -9,6 +9,8 @@ struct brc_cell_breaks {
     brc_pass *break_pass, *share;
     brc_rings *rings;                                           /* around the bonds that break */
     brc_buffer *limit, *twin, *alive, *mark, *measure;          /* [n_slots][C] */
+    brc_buffer *delta;                                          /* measure, as scratch (rims.cl) */
+    brc_buffer *n_marked;                                       /* [n_groups] found, as scratch of groups */
     brc_buffer *modulus, *least, *support, *stiffest, *changed; /* [n_rows] */
     brc_buffer *look;                                           /* [n_groups] */
     brc_buffer *weight, *found;                                 /* [n_rows] */

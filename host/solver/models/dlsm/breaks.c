@@ -122,7 +122,7 @@ brc_status brc_dlsm_mark(brc_simulation *s, double share)
 brc_status brc_dlsm_rebuild(brc_simulation *s, double *left)
 {
     BRC_TRY(brc_pass_run(brc_dlsm_own_of(s)->rebuild, s->n_groups));
-    return brc_vector_sum(s, brc_cell_breaks_array(s, "found"), s->n_groups, left);
+    return brc_vector_sum(s, brc_cell_breaks_marked(s), s->n_groups, left);
 }
 
 bool brc_dlsm_screens(const brc_simulation *s)

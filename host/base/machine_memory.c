@@ -1,0 +1,117 @@
+#include "machine_memory.h"
+#include "memory.h"
+#include "ranks.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+brc_status brc_machine_file(brc_context *context, int *file)
+{
+    *file = memfd_create("breccia", MFD_CLOEXEC);
+    if (*file < 0) return BRC_FAIL(context, BRC_NO_MEMORY, "no file in memory for ranks: %s", strerror(errno));
+    return BRC_OK;
+}
+
+brc_status brc_machine_file_write(brc_context *context, int file, const void *data, int64_t bytes)
+{
+    const char *at = data;
+    while (bytes > 0) {
+        const ssize_t n = write(file, at, (size_t)(bytes < 1 << 30 ? bytes : 1 << 30));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0)
+            return BRC_FAIL(context, BRC_NO_MEMORY, "%lld bytes more in memory for ranks: %s", (long long)bytes,
+                            strerror(errno));
+        at += n;
+        bytes -= n;
+    }
+    return BRC_OK;
+}
+
+brc_status brc_machine_file_place(brc_context *context, int file, const void *data, int64_t bytes)
+{
+    if (pwrite(file, data, (size_t)bytes, 0) == bytes) return BRC_OK;
+    return BRC_FAIL(context, BRC_NO_MEMORY, "memory for ranks cannot be written: %s", strerror(errno));
+}
+
+/* Where the first rank of this machine has its file. */
+typedef struct address {
+    char node[256];
+    int32_t local, file;
+    int64_t process, bytes;
+} address;
+
+static brc_status find_first(brc_context *context, int file, address *out)
+{
+    const brc_ranks_place here = brc_ranks_here();
+    struct stat about = {0};
+    address own = {.local = here.local, .file = file, .process = getpid()}, *all = NULL;
+    int64_t *ones = NULL;
+    brc_status status = BRC_OK;
+    snprintf(own.node, sizeof own.node, "%s", here.node);
+    if (here.local == 0 && fstat(file, &about) == 0) own.bytes = about.st_size;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &all, here.count, "ranks"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &ones, here.count, "ranks"));
+    for (int32_t k = 0; k < here.count; ++k)
+        ones[k] = 1;
+    BRC_TRY_OR(cleanup, brc_ranks_gather_all(context, &own, sizeof own, ones, all));
+    for (int32_t k = 0; k < here.count; ++k)
+        if (all[k].local == 0 && strcmp(all[k].node, own.node) == 0) *out = all[k];
+cleanup:
+    brc_memory_free(all);
+    brc_memory_free(ones);
+    return status;
+}
+
+static int open_first(const address *first, int file)
+{
+    char path[64];
+    snprintf(path, sizeof path, "/proc/%lld/fd/%d", (long long)first->process, (int)first->file);
+    return first->process == getpid() ? dup(file) : open(path, O_RDONLY | O_CLOEXEC);
+}
+
+static brc_status map(brc_context *context, int file, void *at, brc_machine_memory *out)
+{
+    address first = {.file = -1};
+    int there = -1;
+    *out = (brc_machine_memory){0};
+    brc_status status = find_first(context, file, &first);
+    if (status == BRC_OK) there = open_first(&first, file);
+    int64_t lacks = there < 0;
+    if (status == BRC_OK) status = brc_ranks_reduce(context, BRC_SUM, 1, &lacks); /* nobody closes before all opened */
+    if (file >= 0) close(file);
+    if (status == BRC_OK && lacks)
+        status = BRC_FAIL(context, BRC_INTERNAL, "%lld ranks cannot open the memory of their machine's first",
+                          (long long)lacks);
+    if (status == BRC_OK) {
+        void *const data = mmap(at, (size_t)first.bytes, PROT_READ | PROT_WRITE,
+                                MAP_PRIVATE | MAP_NORESERVE | (at ? MAP_FIXED : 0), there, 0);
+        if (data == MAP_FAILED)
+            status = BRC_FAIL(context, BRC_NO_MEMORY, "%lld bytes of the machine's first rank: %s",
+                              (long long)first.bytes, strerror(errno));
+        else
+            *out = (brc_machine_memory){data, first.bytes};
+    }
+    if (there >= 0) close(there);
+    return status;
+}
+
+brc_status brc_machine_memory_map(brc_context *context, int file, brc_machine_memory *out)
+{
+    return map(context, file, NULL, out);
+}
+
+brc_status brc_machine_memory_lay(brc_context *context, int file, void *at)
+{
+    brc_machine_memory unused;
+    return map(context, file, at, &unused);
+}
+
+void brc_machine_memory_free(brc_machine_memory *memory)
+{
+    if (memory->data) (void)munmap(memory->data, (size_t)memory->bytes);
+    *memory = (brc_machine_memory){0};
+}

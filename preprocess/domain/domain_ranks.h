@@ -1,0 +1,12 @@
+/* One domain for the ranks (host/base/ranks.h) of a machine. */
+#ifndef BRC_PREPROCESS_DOMAIN_RANKS_H
+#define BRC_PREPROCESS_DOMAIN_RANKS_H
+
+#include "domain.h"
+
+/* All ranks. *domain of the first rank of each machine becomes that of its others too, NULL there before: its arrays
+ * are in memory once, and a rank that writes to them writes to pages of its own. *done: false where ranks cannot see
+ * one another's memory; *domain is then as it was. Free it as any other. BRC_NO_MEMORY. */
+brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *done);
+
+#endif
