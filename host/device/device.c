@@ -458,7 +458,7 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
         if (args[a].kind == BRC_ARG_BUFFER && args[a].value.buffer && args[a].value.buffer->device != kernel->device)
             return BRC_FAIL(context, BRC_INTERNAL, "kernel %s: argument %d (%s) lives on another device", kernel->name,
                             a, args[a].value.buffer->what);
-    if (n_items == 0) return BRC_OK;
+    if (n_items == 0 && !brc_share_waits(kernel->device)) return BRC_OK;
     kernel->launches += 1;
     return brc_share_launch(kernel, n_items, n_args, args);
 }

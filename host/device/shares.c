@@ -200,7 +200,8 @@ static void leave(const shared *l)
             buffer->numbers = l->numbers;
             buffer->block = l->block;
             buffer->where = BRC_MINE;
-        } else if (writes(use) && buffer->of != BRC_OF_NOTHING && (l->way != AMONG || only_rows)) {
+        } else if (writes(use) && buffer->of != BRC_OF_NOTHING && buffer->of != BRC_OF_LOOSE &&
+                   (l->way != AMONG || only_rows)) {
             buffer->where = BRC_MINE;
             if (buffer->filled) brc_share_give_back(buffer);
         }
@@ -224,6 +225,11 @@ static brc_status launch_range(brc_kernel *kernel, const shared *l)
     return kernel->device->backend->launch(kernel, l->first, l->end, l->n_args, own);
 }
 
+bool brc_share_waits(const brc_device *device)
+{
+    return device->shares && device->shares->among;
+}
+
 brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args)
 {
     if (!kernel->device->shares) return launch(kernel, n_items, n_args, args);
@@ -231,7 +237,7 @@ brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, con
     kernel->device->shares->n_launches += 1;
     find_way(&l, n_items);
     BRC_TRY(bring(&l));
-    BRC_TRY(l.way == OWN_ITEMS ? launch_range(kernel, &l) : launch(kernel, n_items, n_args, args));
+    if (n_items > 0) BRC_TRY(l.way == OWN_ITEMS ? launch_range(kernel, &l) : launch(kernel, n_items, n_args, args));
     leave(&l);
     return BRC_OK;
 }

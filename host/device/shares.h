@@ -28,6 +28,7 @@ typedef enum brc_array_of {
     BRC_OF_SLICES, /* numbers of the rows of a slice lie beside each other */
     BRC_OF_GROUPS,
     BRC_OF_SLOTS,
+    BRC_OF_LOOSE,   /* places of rows, in no order: each rank's own are right, and nobody else reads them */
     BRC_OF_NUMBERS, /* items alone: of rows, as many of each */
     BRC_OF_BLOCKS   /* sums and the like of blocks of such numbers */
 } brc_array_of;
@@ -43,7 +44,11 @@ brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *row
 void brc_rows_among_free(brc_rows_among **among);
 /* Launches from now on keep to the set, which is borrowed; NULL: to none any more. Returns the set until now. */
 brc_rows_among *brc_device_keep_among(brc_device *device, brc_rows_among *among);
-/* Whether several ranks share the rows. */
+/* Whether several ranks share the rows; whether this one computes a row; whether one computes both. */
 bool brc_device_is_shared(const brc_device *device);
+bool brc_device_has_row(const brc_device *device, int32_t row);
+bool brc_device_rows_together(const brc_device *device, int32_t i, int32_t j);
+/* All ranks: the first n items of an array of no rows, `bytes` each, come from those that compute row [n]. */
+brc_status brc_buffer_bring_items(brc_buffer *buffer, int64_t bytes, int32_t n, const int32_t *row);
 
 #endif

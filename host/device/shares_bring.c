@@ -186,6 +186,36 @@ brc_status brc_share_bring_among(brc_buffer *buffer, brc_rows_among *among)
     return close_image(buffer, image, status);
 }
 
+brc_status brc_buffer_bring_items(brc_buffer *buffer, int64_t bytes, int32_t n, const int32_t *row)
+{
+    brc_context *context = buffer->device->context;
+    const shares *h = buffer->device->shares;
+    int64_t *n_of = NULL, *at = NULL;
+    char *all = NULL, *image = NULL;
+    brc_status status = BRC_OK;
+    if (!h || n == 0) return BRC_OK;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &n_of, h->n_ranks, "messages"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &at, h->n_ranks + 1, "messages"));
+    BRC_TRY_OR(cleanup, brc_memory_allocate(context, (void **)&all, n, (size_t)bytes, "messages"));
+    BRC_TRY_OR(cleanup, open_image(buffer, &image));
+    for (int32_t k = 0; k < n; ++k)
+        n_of[brc_share_rank_of_row(h, row[k])] += 1;
+    for (int32_t rank = 0; rank < h->n_ranks; ++rank)
+        at[rank + 1] = at[rank] + n_of[rank];
+    int64_t next = at[h->mine];
+    for (int32_t k = 0; k < n; ++k)
+        if (brc_share_rank_of_row(h, row[k]) == h->mine) memcpy(all + next++ * bytes, image + k * bytes, (size_t)bytes);
+    status = brc_ranks_gather_all(context, all + at[h->mine] * bytes, bytes, n_of, all);
+    for (int32_t k = 0; status == BRC_OK && k < n; ++k)
+        memcpy(image + k * bytes, all + at[brc_share_rank_of_row(h, row[k])]++ * bytes, (size_t)bytes);
+    status = close_image(buffer, image, status);
+cleanup:
+    brc_memory_free(n_of);
+    brc_memory_free(at);
+    brc_memory_free(all);
+    return status;
+}
+
 /* ---- the whole array ---- */
 
 static int64_t before(const shares *h, const brc_buffer *buffer, int32_t rank)
@@ -224,7 +254,7 @@ brc_status brc_share_copy(brc_buffer *to, brc_buffer *from, int64_t bytes)
     const shares *h = to->device->shares;
     if (!h) return BRC_OK;
     BRC_TRY(brc_share_settle(from));
-    const bool alike = from->of != BRC_OF_NOTHING && from->of != BRC_OF_BLOCKS && to->of == from->of &&
+    const bool alike = from->of != BRC_OF_NOTHING && from->of != BRC_OF_BLOCKS && from->of != BRC_OF_LOOSE && to->of == from->of &&
                        to->each == from->each && bytes >= before(h, from, h->n_ranks) * from->each;
     if (!alike) {
         BRC_TRY(brc_share_gather(from));

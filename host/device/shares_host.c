@@ -35,7 +35,7 @@ static bool is_in_parts(const brc_buffer *buffer)
 {
     const shares *h = buffer->device->shares;
     return h && buffer->device->info.kind == BRC_DEVICE_CPU && buffer->of != BRC_OF_NOTHING &&
-           buffer->of != BRC_OF_BLOCKS && bytes_of(buffer) <= buffer->bytes;
+           buffer->of != BRC_OF_BLOCKS && buffer->of != BRC_OF_LOOSE && bytes_of(buffer) <= buffer->bytes;
 }
 
 /* ---- pages ---- */

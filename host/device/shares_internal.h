@@ -84,6 +84,8 @@ bool brc_share_zero(brc_buffer *buffer);
 brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool *done);
 
 /* ---- shares.c ---- */
+/* Whether others may launch with items where this rank has none. */
+bool brc_share_waits(const brc_device *device);
 /* Launch what of the items this rank does, with what it reads there. */
 brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, const brc_arg *args);
 

@@ -264,6 +264,18 @@ brc_rows_among *brc_device_keep_among(brc_device *device, brc_rows_among *among)
     return before;
 }
 
+bool brc_device_has_row(const brc_device *device, int32_t row)
+{
+    const shares *h = device->shares;
+    return !h || brc_share_rank_of_row(h, row) == h->mine;
+}
+
+bool brc_device_rows_together(const brc_device *device, int32_t i, int32_t j)
+{
+    const shares *h = device->shares;
+    return !h || brc_share_rank_of_row(h, i) == brc_share_rank_of_row(h, j);
+}
+
 bool brc_device_is_shared(const brc_device *device)
 {
     return device->shares != NULL;

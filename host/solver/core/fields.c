@@ -123,7 +123,8 @@ static void tell_order(brc_buffer *buffer, const brc_field_row *field, const brc
     } orders[] = {{brc_each_row, BRC_OF_ROWS},
                   {brc_each_block, BRC_OF_SLICES},
                   {brc_each_group, BRC_OF_GROUPS},
-                  {brc_each_entry, BRC_OF_SLOTS}};
+                  {brc_each_entry, BRC_OF_SLOTS},
+                  {brc_each_boundary, BRC_OF_LOOSE}};
     const int64_t number = field->number == BRC_FIELD_INT     ? (int64_t)sizeof(int32_t)
                            : field->number == BRC_FIELD_STATE ? wants->state_bytes
                                                               : wants->coeff_bytes;

@@ -22,8 +22,8 @@ static brc_status make_passes(brc_simulation *s)
     const bool spheres = brc_has_spheres(s), pieces = c->n_pieces > 0;
     brc_contact_scopes in;
     brc_contact_scopes_make(s, &in);
-    const brc_pass_wanted of_pairs[] = {{&c->pass.spheres, "contact_spheres", "whole dt n", !spheres},
-                                        {&c->pass.cells, "contact_cells", "whole broke dt n", spheres},
+    const brc_pass_wanted of_pairs[] = {{&c->pass.spheres, "contact_spheres", "whole dt n todo", !spheres},
+                                        {&c->pass.cells, "contact_cells", "whole broke dt n todo", spheres},
                                         {&c->pass.gather_moments, "contact_gather_moments", "book", !c->affine},
                                         BRC_PASS(&c->pass.expose, "contact_expose", "broken")};
     BRC_TRY(BRC_PASSES_MAKE(s, &in.now, of_pairs));
@@ -77,7 +77,7 @@ void brc_contact_free(brc_simulation *s)
     if (c->bonded) brc_fields_free(&brc_bonded_list_fields, c->bonded);
     brc_memory_free(c->bonded);
     brc_rows_among_free(&c->listed);
-    brc_rows_among_free(&c->paired);
+    brc_contact_share_free(c);
     brc_memory_free(c->law_of);
     brc_memory_free(c);
     s->contact = NULL;
@@ -183,15 +183,16 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
     brc_contact_state *c = s->contact;
     const brc_contact_list *l = &c->now;
     const int32_t n = s->layout->n_rows;
-    const int32_t n_items = whole ? l->n_pairs : c->n_todo;
-    if (n_items == 0) return BRC_OK;
-    brc_rows_among *const outer = brc_device_keep_among(s->device, c->paired);
-    const brc_status status =
-        brc_has_spheres(s)
-            ? BRC_RUN(c->pass.spheres, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"dt", BRC_STATE(dt)},
-                      {"n", BRC_INT(n)})
-            : BRC_RUN(c->pass.cells, n_items, {"whole", BRC_INT(whole ? 1 : 0)}, {"broke", BRC_INT(broke ? 1 : 0)},
-                      {"dt", BRC_STATE(dt)}, {"n", BRC_INT(n)});
+    const brc_contact_items items = brc_contact_items_of(s, whole);
+    const brc_given given[] = {{"whole", BRC_INT(items.whole ? 1 : 0)},
+                               {"dt", BRC_STATE(dt)},
+                               {"n", BRC_INT(n)},
+                               {"todo", BRC_BUF(items.todo)},
+                               {"broke", BRC_INT(broke ? 1 : 0)},
+                               {0}};
+    if ((whole ? l->n_pairs : c->n_todo) == 0) return BRC_OK;
+    brc_rows_among *const outer = brc_device_keep_among(s->device, items.among);
+    const brc_status status = brc_pass_run_on(brc_has_spheres(s) ? c->pass.spheres : c->pass.cells, items.n, NULL, NULL, given);
     brc_device_keep_among(s->device, outer);
     return status;
 }
@@ -237,10 +238,7 @@ brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
     const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
-    brc_rows_among *const outer = brc_device_keep_among(s->device, c->paired);
-    const brc_status status = BRC_RUN(c->pass.gather_moments, l->n_with_pairs, {"book", BRC_INT(book)});
-    brc_device_keep_among(s->device, outer);
-    return status;
+    return BRC_RUN(c->pass.gather_moments, l->n_with_pairs, {"book", BRC_INT(book)});
 }
 
 brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)

@@ -79,7 +79,8 @@ struct brc_contact_state {
     brc_buffer *flag, *flag_start, *todo; /* of pairs; todo: those that the last breaks may have changed */
     int64_t todo_room, sums_room;
     int32_t n_todo;
-    struct brc_rows_among *listed, *paired; /* of several ranks: elements of the list, of its pairs (device/shares.h) */
+    struct brc_rows_among *listed;   /* of several ranks: elements of the list (device/shares.h) */
+    struct brc_contact_share *share; /* of several ranks: pairs (contact_share.c) */
     bool always_whole; /* for comparison: look for all pairs after breaks, and let openings follow by evaluations of
                           all */
     double energy_from_breaks; /* energy that surfaces held when their bond broke [J] */
@@ -107,6 +108,23 @@ void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out);
 /* ---- contact_setup.c ---- */
 /* Arrays of rows, laws of materials, who is exposed at the start. */
 brc_status brc_contact_setup(brc_simulation *s);
+
+/* ---- contact_share.c ---- */
+/* What passes over pairs go over: numbers of pairs, or all. */
+typedef struct brc_contact_items {
+    int32_t n;
+    brc_buffer *todo; /* [n] */
+    bool whole;       /* all, whatever todo says */
+    struct brc_rows_among *among;
+} brc_contact_items;
+/* All pairs, or those of c->todo. */
+brc_contact_items brc_contact_items_of(const brc_simulation *s, bool whole);
+/* After the list is made; after c->todo is. */
+brc_status brc_contact_share_pairs(brc_simulation *s);
+brc_status brc_contact_share_todo(brc_simulation *s);
+/* Before the host reads touch, result or history of all pairs. */
+brc_status brc_contact_bring_pairs(brc_simulation *s);
+void brc_contact_share_free(brc_contact_state *contact);
 
 /* ---- contact_shapes.c ---- */
 brc_status brc_contact_shapes(brc_simulation *s);

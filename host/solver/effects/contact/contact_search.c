@@ -427,7 +427,7 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     const brc_status status = find_pairs(s, whole, carried);
     brc_device_keep_among(s->device, outer);
     BRC_TRY(status);
-    return c->now.n_pairs > 0 ? keep_to(s, c->now.ends, 2 * (int64_t)c->now.n_pairs, &c->paired) : BRC_OK;
+    return brc_contact_share_pairs(s);
 }
 
 brc_status brc_contact_list_again(brc_simulation *s)
@@ -453,7 +453,7 @@ static brc_status find_changed(brc_simulation *s, brc_buffer *touched)
     BRC_TRY(BRC_RUN(c->pass.with_pairs, n_pairs, {"any", BRC_BUF(c->flag)}, {"at", BRC_BUF(c->flag_start)},
                     {"with_pairs", BRC_BUF(c->todo)}));
     c->n_todo = (int32_t)n_todo;
-    return BRC_OK;
+    return brc_contact_share_todo(s);
 }
 
 brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)

@@ -76,6 +76,7 @@ static brc_status walk_pairs(brc_simulation *s, brc_state_store *store)
     pair_of_ids *pair = NULL;
     int32_t *rank = NULL;
     brc_status status = BRC_OK;
+    BRC_TRY(brc_contact_bring_pairs(s));
     BRC_TRY_OR(cleanup, find_pairs(s, &pair));
     BRC_TRY_OR(cleanup, walk_ids(s, store, pair));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rank, l->n_pairs, "pairs"));
@@ -104,6 +105,7 @@ brc_status brc_contact_store_stretch(brc_simulation *s, brc_state_store *store)
 {
     brc_contact_state *c = s->contact;
     BRC_TRY(walk_arrays(s, store));
+    BRC_TRY(brc_contact_bring_pairs(s));
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_contact_pair_fields, .owner = &c->now}));
     return brc_store_integer(store, "contact.quiet", &c->quiet);
 }

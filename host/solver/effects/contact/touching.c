@@ -16,6 +16,7 @@ brc_status brc_simulation_touching(brc_simulation *s, brc_touching *out)
     int32_t *touch = NULL;
     brc_status status = BRC_OK;
     if (n == 0) return BRC_OK;
+    BRC_TRY(brc_contact_bring_pairs(s));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &result, stride * n, "forces of pairs"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &history, BRC_CONTACT_HISTORY * n, "pairs"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &touch, n, "pairs"));
@@ -63,6 +64,7 @@ brc_status brc_contact_read_pairs(brc_simulation *s, int32_t *ends, double *hist
     const brc_contact_list *l = &s->contact->now;
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     if (l->n_pairs == 0) return BRC_OK;
+    if (history) BRC_TRY(brc_contact_bring_pairs(s));
     if (ends) BRC_TRY(brc_buffer_read(l->ends, 0, ends, 8 * (int64_t)l->n_pairs));
     return history ? brc_download(s, l->history, bytes, history, BRC_CONTACT_HISTORY * (int64_t)l->n_pairs) : BRC_OK;
 }
