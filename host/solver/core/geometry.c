@@ -245,7 +245,7 @@ static const brc_field_row rows[] = {
      BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
     {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(ratio), "inverse lengths", "1/m",
      BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
-    {"material", brc_each_row, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -",
+    {"material", brc_each_block, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -",
      BRC_NOT_KEPT},
     {"modulus", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(modulus), "stabilisation moduli", "Pa", BRC_NOT_KEPT},
     {"ell_of", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(ell_of), "compaction ratios", "-", BRC_NOT_KEPT},
