@@ -48,19 +48,19 @@ struct brc_device {
 };
 
 struct brc_buffer {
-    brc_device *device; /* borrowed */
-    void *memory;       /* the backend's handle */
-    int64_t bytes;      /* as asked for */
-    int64_t held;       /* as allocated: at least one line */
-    brc_array_of of;    /* how it lies (shares.h) */
-    int64_t each;       /* bytes of one of those */
-    int64_t number;     /* bytes of a number; 0: not known */
+    brc_device *device;     /* borrowed */
+    void *memory;           /* the backend's handle */
+    int64_t bytes;          /* as asked for */
+    int64_t held;           /* as allocated: at least one line */
+    brc_array_of of;        /* how it lies (shares.h) */
+    int64_t each;           /* bytes of one of those */
+    int64_t number;         /* bytes of a number; 0: not known */
     int64_t numbers, block; /* BRC_OF_BLOCKS: of so many numbers, and of each block */
-    int where;          /* where its rows are right (shares_internal.h) */
-    bool filled;        /* rows of all were brought together since pages were given back */
-    int64_t given_back; /* launches until then */
-    bool marked;        /* flags are set at rows of other ranks that these do not know of */
-    bool is_scratch;    /* memory of another one, not in the device's list */
+    int where;              /* where its rows are right (shares_internal.h) */
+    bool filled;            /* rows of all were brought together since pages were given back */
+    int64_t given_back;     /* launches until then */
+    bool marked;            /* flags are set at rows of other ranks that these do not know of */
+    bool is_scratch;        /* memory of another one, not in the device's list */
     char what[64];
     brc_buffer *older, *younger; /* of the device's list */
 };

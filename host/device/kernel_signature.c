@@ -30,10 +30,10 @@ static bool read_parameter(const char *from, const char *to, brc_kernel_signatur
         const char *word;
         char letter;
         brc_use use;
-    } words[] = {{"OWN", 'b', BRC_USE_OWN},       {"GATHER", 'b', BRC_USE_GATHER},   {"PUT", 'b', BRC_USE_PUT},
-                 {"UPDATE", 'b', BRC_USE_UPDATE}, {"FLAG", 'b', BRC_USE_FLAG},       {"SPREAD", 'b', BRC_USE_SPREAD},
-                 {"SCATTER", 'b', BRC_USE_SCATTER}, {"int", 'i', BRC_USE_VALUE},     {"state", 's', BRC_USE_VALUE},     {"coeff", 'c', BRC_USE_VALUE},
-                 {"double", 'd', BRC_USE_VALUE}};
+    } words[] = {{"OWN", 'b', BRC_USE_OWN},         {"GATHER", 'b', BRC_USE_GATHER}, {"PUT", 'b', BRC_USE_PUT},
+                 {"UPDATE", 'b', BRC_USE_UPDATE},   {"FLAG", 'b', BRC_USE_FLAG},     {"SPREAD", 'b', BRC_USE_SPREAD},
+                 {"SCATTER", 'b', BRC_USE_SCATTER}, {"int", 'i', BRC_USE_VALUE},     {"state", 's', BRC_USE_VALUE},
+                 {"coeff", 'c', BRC_USE_VALUE},     {"double", 'd', BRC_USE_VALUE}};
     while (from < to && isspace((unsigned char)*from))
         ++from;
     if (memchr(from, '*', (size_t)(to - from))) return false;

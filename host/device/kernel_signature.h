@@ -20,8 +20,8 @@ enum { BRC_KERNEL_MOST_ARGS = 64 };
 #define BRC_KERNEL_LETTERS "biscd"
 
 typedef struct brc_kernel_signature {
-    int n;                                  /* parameters; 0: the text is not of the form of portable.md */
-    brc_array_of items;                     /* what its items are: all groups, rows, numbers or blocks of them; else BRC_OF_NOTHING */
+    int n;              /* parameters; 0: the text is not of the form of portable.md */
+    brc_array_of items; /* what its items are: all groups, rows, numbers or blocks of them; else BRC_OF_NOTHING */
     char kinds[BRC_KERNEL_MOST_ARGS + 1];   /* a letter each */
     brc_use use[BRC_KERNEL_MOST_ARGS];      /* by their markers */
     const char *name[BRC_KERNEL_MOST_ARGS]; /* in the text: ends where a word does */

@@ -19,8 +19,13 @@ typedef struct shared {
     const brc_kernel *kernel;
     int n_args;
     const brc_arg *args;
-    enum { ALIKE, OWN_ITEMS, LISTED, AMONG } way; /* all do all; own items; all do all, own rows are right; the same,
-                                                   * and what is not of rows is right everywhere */
+    enum {
+        ALIKE,
+        OWN_ITEMS,
+        LISTED,
+        AMONG
+    } way; /* all do all; own items; all do all, own rows are right; the same,
+            * and what is not of rows is right everywhere */
     brc_array_of items;
     int64_t first, end;     /* own items */
     int64_t numbers, block; /* BRC_OF_BLOCKS: numbers in all and of a block */
@@ -46,8 +51,7 @@ static bool writes_rows(const shared *l, bool may_flag)
         const brc_buffer *const buffer = buffer_of(l, a);
         if (use == BRC_USE_SCATTER || (flags(use) && !may_flag)) return false;
         if (buffer && writes(use) && (buffer->of == BRC_OF_NOTHING || buffer->of == BRC_OF_BLOCKS)) return false;
-        if (buffer && flags(use) && (buffer->of != BRC_OF_ROWS || buffer->each != sizeof(int32_t)))
-            return false;
+        if (buffer && flags(use) && (buffer->of != BRC_OF_ROWS || buffer->each != sizeof(int32_t))) return false;
     }
     return true;
 }
@@ -116,7 +120,8 @@ static bool own_blocks(shared *l, int64_t n_items)
 static bool has_list(const shared *l)
 {
     for (int a = 0; a < l->n_args; ++a)
-        if (l->kernel->signature.use[a] == BRC_USE_OWN && is_named(l->kernel, a, "list")) return buffer_of(l, a) != NULL;
+        if (l->kernel->signature.use[a] == BRC_USE_OWN && is_named(l->kernel, a, "list"))
+            return buffer_of(l, a) != NULL;
     return false;
 }
 

@@ -1,10 +1,10 @@
 /* What of a device's arrays each rank (../base/ranks.h) computes. Every rank has arrays of all rows in the same order,
  * and runs the same program. A launch whose items are rows, groups, numbers or blocks of rows, and which writes those
- * alone, does the rank's own range; what it gathers from other ranks' rows comes before it does, from those that compute
- * them. Flags that it sets there go back. A launch over a list of rows is done by all: each is right at its own. Any
- * other launch, and what the host reads, is of arrays that are brought together first, and is done by all alike. So
- * every rank has the bits that one alone would have. Which rows a launch reads and writes follows from its signature
- * (kernel_signature.h): no model and no effect knows of ranks. */
+ * alone, does the rank's own range; what it gathers from other ranks' rows comes before it does, from those that
+ * compute them. Flags that it sets there go back. A launch over a list of rows is done by all: each is right at its
+ * own. Any other launch, and what the host reads, is of arrays that are brought together first, and is done by all
+ * alike. So every rank has the bits that one alone would have. Which rows a launch reads and writes follows from its
+ * signature (kernel_signature.h): no model and no effect knows of ranks. */
 #ifndef BRC_DEVICE_SHARES_H
 #define BRC_DEVICE_SHARES_H
 

@@ -36,8 +36,8 @@ static brc_status messages_make(brc_context *context, const shares *h, brc_messa
 {
     const brc_rows_beside *from = m->back ? &h->take : &h->give, *to = m->back ? &h->give : &h->take;
     brc_neighbour *beside = NULL;
-    BRC_TRY(brc_memory_allocate(context, (void **)&m->send, things(from, h->n_beside, m->of_slots) + 1, (size_t)m->bytes,
-                                "messages"));
+    BRC_TRY(brc_memory_allocate(context, (void **)&m->send, things(from, h->n_beside, m->of_slots) + 1,
+                                (size_t)m->bytes, "messages"));
     BRC_TRY(brc_memory_allocate(context, (void **)&m->receive, things(to, h->n_beside, m->of_slots) + 1,
                                 (size_t)m->bytes, "messages"));
     BRC_TRY(BRC_ALLOCATE(context, &beside, h->n_beside + 1, "messages"));
@@ -178,9 +178,9 @@ brc_status brc_share_bring_among(brc_buffer *buffer, brc_rows_among *among)
     BRC_TRY(open_image(buffer, &image));
     const rows_of rows = {among->row, among->slots};
     carry(h, buffer, image, &rows, among->first, end, among->image, true);
-    const brc_status status = brc_ranks_gather_all(
-        context, among->image + (slots ? among->slots[among->first] : among->first) * each, each,
-        slots ? among->slots_of : among->n_of, among->image);
+    const brc_status status =
+        brc_ranks_gather_all(context, among->image + (slots ? among->slots[among->first] : among->first) * each, each,
+                             slots ? among->slots_of : among->n_of, among->image);
     if (status == BRC_OK) carry(h, buffer, image, &rows, 0, among->first, among->image, false);
     if (status == BRC_OK) carry(h, buffer, image, &rows, end, among->n, among->image, false);
     return close_image(buffer, image, status);
@@ -240,7 +240,8 @@ brc_status brc_share_gather(brc_buffer *buffer)
     for (int32_t rank = 0; rank < h->n_ranks; ++rank)
         n_of[rank] = before(h, buffer, rank + 1) - before(h, buffer, rank);
     BRC_TRY_OR(cleanup, open_image(buffer, &image));
-    status = brc_ranks_gather_all(context, image + before(h, buffer, h->mine) * buffer->each, buffer->each, n_of, image);
+    status =
+        brc_ranks_gather_all(context, image + before(h, buffer, h->mine) * buffer->each, buffer->each, n_of, image);
     buffer->where = BRC_EVERYWHERE;
     buffer->filled = true;
     status = close_image(buffer, image, status);
@@ -254,8 +255,9 @@ brc_status brc_share_copy(brc_buffer *to, brc_buffer *from, int64_t bytes)
     const shares *h = to->device->shares;
     if (!h) return BRC_OK;
     BRC_TRY(brc_share_settle(from));
-    const bool alike = from->of != BRC_OF_NOTHING && from->of != BRC_OF_BLOCKS && from->of != BRC_OF_LOOSE && to->of == from->of &&
-                       to->each == from->each && bytes >= before(h, from, h->n_ranks) * from->each;
+    const bool alike = from->of != BRC_OF_NOTHING && from->of != BRC_OF_BLOCKS && from->of != BRC_OF_LOOSE &&
+                       to->of == from->of && to->each == from->each &&
+                       bytes >= before(h, from, h->n_ranks) * from->each;
     if (!alike) {
         BRC_TRY(brc_share_gather(from));
         return brc_share_gather(to);

@@ -9,8 +9,10 @@
 
 typedef struct brc_shares shares;
 
-enum { LARGE = 2 << 20,        /* bytes of an array whose pages are worth a call (device_cpu.c) */
-       LAUNCHES_BETWEEN = 512 }; /* giving back pages of one array: those of some come and go in every step */
+enum {
+    LARGE = 2 << 20, /* bytes of an array whose pages are worth a call (device_cpu.c) */
+    LAUNCHES_BETWEEN = 512
+}; /* giving back pages of one array: those of some come and go in every step */
 
 /* Bytes of the rank's own. */
 typedef struct range {
@@ -83,7 +85,8 @@ static void put(const brc_buffer *buffer, const char *data, int64_t at, int64_t 
 static void put_near(const brc_buffer *buffer, const char *data)
 {
     const shares *h = buffer->device->shares;
-    const int64_t slice = h->rows.slice, parts = buffer->of == BRC_OF_SLOTS ? buffer->each / (buffer->number * slice) : 1;
+    const int64_t slice = h->rows.slice,
+                  parts = buffer->of == BRC_OF_SLOTS ? buffer->each / (buffer->number * slice) : 1;
     for (int64_t k = 0; k < h->take.start[h->n_beside]; ++k) {
         const int64_t row = h->take.row[k];
         if (buffer->of == BRC_OF_ROWS) put(buffer, data, row * buffer->each, buffer->each);
@@ -154,9 +157,8 @@ brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_
     for (int32_t rank = 0; rank < h->n_ranks; ++rank)
         n_of[rank] = brc_share_before(h, buffer->of, h->first_slice[rank + 1]) -
                      brc_share_before(h, buffer->of, h->first_slice[rank]);
-    const brc_status status = brc_ranks_gather_all(buffer->device->context,
-                                                   (const char *)buffer->memory + own_of(buffer).first, buffer->each,
-                                                   n_of, data);
+    const brc_status status = brc_ranks_gather_all(
+        buffer->device->context, (const char *)buffer->memory + own_of(buffer).first, buffer->each, n_of, data);
     brc_memory_free(n_of);
     return status;
 }

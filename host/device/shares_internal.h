@@ -1,5 +1,5 @@
-/* Shares of ranks inside of a device: which rows a rank owns and exchanges (shares_rows.c), how rows come (shares_bring.c),
- * what the host writes and reads (shares_host.c), and what a launch asks for (shares.c). */
+/* Shares of ranks inside of a device: which rows a rank owns and exchanges (shares_rows.c), how rows come
+ * (shares_bring.c), what the host writes and reads (shares_host.c), and what a launch asks for (shares.c). */
 #ifndef BRC_DEVICE_SHARES_INTERNAL_H
 #define BRC_DEVICE_SHARES_INTERNAL_H
 
@@ -20,9 +20,9 @@ typedef struct brc_rows_beside {
 /* Messages of one kind, made at the first use. */
 typedef struct brc_messages {
     struct brc_messages *next;
-    int64_t bytes;  /* of a row, or of one of its slots */
-    bool of_slots;  /* as many as the rows have slots */
-    bool back;      /* from those that read rows to those that compute them */
+    int64_t bytes; /* of a row, or of one of its slots */
+    bool of_slots; /* as many as the rows have slots */
+    bool back;     /* from those that read rows to those that compute them */
     char *send, *receive;
     brc_exchange *exchange;
 } brc_messages;
@@ -37,7 +37,7 @@ struct brc_shares {
     brc_rows_beside give, take;
     brc_messages *messages;
     int64_t n_launches;
-    bool ranks_meet; /* some machine has several ranks, which see one another's memory */
+    bool ranks_meet;       /* some machine has several ranks, which see one another's memory */
     brc_rows_among *among; /* of the launches now; NULL: none */
 };
 

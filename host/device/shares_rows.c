@@ -223,7 +223,8 @@ brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *row
         BRC_TRY(BRC_ALLOCATE(device->context, &among->slots_of, h->n_ranks, "rows of launches"));
     }
     BRC_TRY(brc_memory_resize(device->context, (void **)&among->row, n, sizeof *rows, "rows of launches"));
-    BRC_TRY(brc_memory_resize(device->context, (void **)&among->slots, n + 1, sizeof *among->slots, "rows of launches"));
+    BRC_TRY(
+        brc_memory_resize(device->context, (void **)&among->slots, n + 1, sizeof *among->slots, "rows of launches"));
     among->n = 0;
     memset(among->n_of, 0, (size_t)h->n_ranks * sizeof *among->n_of);
     memset(among->slots_of, 0, (size_t)h->n_ranks * sizeof *among->slots_of);
@@ -231,7 +232,8 @@ brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *row
     if (n > 0) memcpy(sorted, rows, (size_t)n * sizeof *rows);
     if (n > 0) qsort(sorted, (size_t)n, sizeof *sorted, ascending);
     for (int32_t k = 0; k < n; ++k) {
-        if (sorted[k] < 0 || sorted[k] >= h->rows.n_rows || (among->n > 0 && sorted[k] == sorted[among->n - 1])) continue;
+        if (sorted[k] < 0 || sorted[k] >= h->rows.n_rows || (among->n > 0 && sorted[k] == sorted[among->n - 1]))
+            continue;
         const int32_t owner = brc_share_rank_of_row(h, sorted[k]), slice = sorted[k] / h->rows.slice;
         const int64_t n_slots = h->slot_start[slice + 1] - h->slot_start[slice];
         among->n_of[owner] += 1;

@@ -8,8 +8,8 @@
  *   BRC_TARGET          defined for the OpenMP target reading of the C build
  *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
- * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, OWN, GATHER, PUT, UPDATE, FLAG, SPREAD, SCATTER, LAW, ROUTINE,
- * FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
+ * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, OWN, GATHER, PUT, UPDATE, FLAG, SPREAD, SCATTER, LAW,
+ * ROUTINE, FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
 #define BRC_KERNELS_PORTABLE_H
 

@@ -1,4 +1,4 @@
-"""Markers of every array of every kernel (portable.h: OWN, GATHER, PUT, UPDATE, SCATTER) against what the kernel's text does, by
+"""Markers of every array of every kernel (portable.h: OWN, GATHER, PUT, UPDATE, FLAG, SPREAD, SCATTER) against what the kernel's text does, by
 clang's syntax tree: each kernel and the laws it calls are gone through with sets of names in place of numbers, which say through the
 contents of which arrays an index came about. Rows that follow from the work-item alone, or from a list of own rows, are its own."""
 import glob
@@ -16,6 +16,7 @@ TO_OWN = {"row_start", "list", "element", "face_start", "start", "boundary", "to
 OF_FACES = {"place"}  # of loads on faces: the place of the element among those with faces
 NOTHING = frozenset()
 ITEM = frozenset([("item",)])
+RAISED = ("FLAG", "SPREAD")  # written at others' rows too, and by STORE_SAME alone (raised_otherwise)
 DECIDED = ("listed", "by_touch")  # constants that say which of two readings is compiled
 
 
@@ -320,7 +321,7 @@ def written_markers():
         with open(name, encoding="utf-8") as file:
             text = file.read()
         for match in re.finditer(r"KERNEL void\s+(PASS\()?(\w+)\)?\(((?:[^()]|\([^()]*\))*)\)", text):
-            arrays = {array: marker for marker, array in re.findall(r"\b(OWN|GATHER|PUT|UPDATE|SCATTER)\(\w+\)\s+(\w+)", match.group(3))}
+            arrays = {array: marker for marker, array in re.findall(r"\b(OWN|GATHER|PUT|UPDATE|FLAG|SPREAD|SCATTER)\(\w+\)\s+(\w+)", match.group(3))}
             assert "*" not in match.group(3) and "GLOBAL" not in match.group(3), f"{match.group(2)}: an array without a marker"
             found[match.group(2)] = arrays
             if match.group(1):
@@ -328,12 +329,22 @@ def written_markers():
     return found
 
 
+def raised_otherwise(text):
+    """Flags that a kernel of the text writes in another way than all at once to one number."""
+    findings = []
+    for match in re.finditer(r"^KERNEL void\s+(?:PASS\()?(\w+)(.*?)^}", text, re.M | re.S):
+        for array in re.findall(r"\b(?:FLAG|SPREAD)\(\w+\)\s+(\w+)", match.group(2)):
+            if re.search(rf"\b{array}\[[^\]]*\]\s*[-+*|&]?=(?!=)", match.group(2)):
+                findings.append(f"{match.group(1)}: {array} is a flag, and is written by other stores than STORE_SAME")
+    return findings
+
+
 def differences(written, derived):
     findings = []
     for kernel, arrays in written.items():
         for array, marker in arrays.items():
             does = derived[kernel].get(array, marker)  # what no variant of one lane touches may be marked as it likes
-            if does != marker:
+            if does != ("SCATTER" if marker in RAISED else marker):
                 findings.append(f"{kernel}: {marker}({array}), and by its text it is {does}")
     return findings
 
@@ -352,7 +363,10 @@ def main():
     arrays = sum(len(arrays) for arrays in written.values())
     wrong = {"dlsm_gradient": {"displacement": "OWN", "gradient": "PUT"}, "advance": {"velocity": "PUT", "mass": "GATHER"}}
     assert len(differences(wrong, derived)) == 3, "a wrong marker is not found"
-    findings = differences(written, derived)
+    texts = [open(name, encoding="utf-8").read() for name in sorted(glob.glob(f"{KERNELS}/**/*.cl", recursive=True))]
+    bad = "KERNEL void raise(int n, FLAG(int) touched)\n{\n    FOR_EACH_ITEM(e, n) { touched[e] = 2; }\n}\n"
+    assert len(raised_otherwise(bad)) == 1, "a flag that is stored to is not found"
+    findings = differences(written, derived) + [finding for text in texts for finding in raised_otherwise(text)]
     for finding in findings:
         print("markers:", finding)
     print(f"{len(written)} kernels, {arrays} arrays")

@@ -6,7 +6,8 @@
  * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa];
  * twin: the entry of the same bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it
  * breaks at the end of this step; measure: its stress then [Pa]. found, n_marked: of an element or group of elements,
- * how many bonds it marked. touched [n]: 1 for the two elements of every marked bond, 2 once it broke: ring 0 of rings.cl. */
+ * how many bonds it marked. touched [n]: 1 for the two elements of every marked bond, 2 once it broke: ring 0 of
+ * rings.cl. */
 
 #define CELLS_NEVER REAL(1e30)
 #define CELLS_TENSION 1

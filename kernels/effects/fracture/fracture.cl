@@ -266,9 +266,9 @@ KERNEL void fracture_choose(int n_rows, int step, int drucker_prager, coeff slop
 }
 
 /* How far every element is on its way to failure [n]. */
-KERNEL void fracture_ratio(int n_rows, int drucker_prager, coeff slope, coeff friction, int weighted, OWN(int) row_start,
-                           OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) limits,
-                           OWN(coeff) factor, OWN(coeff) stress, PUT(coeff) ratio)
+KERNEL void fracture_ratio(int n_rows, int drucker_prager, coeff slope, coeff friction, int weighted,
+                           OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement,
+                           OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) stress, PUT(coeff) ratio)
 {
     FOR_EACH_ITEM(e, n_rows) {
         const failure_shear shear = {drucker_prager, slope, friction};

@@ -2,8 +2,8 @@
  * break, and the least squares that are left. Arrays of entries as in cells.cl, whose cells_break removes the
  * bonds. */
 
-/* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; n_marked [n_groups]: how many.
- * Only groups of elements where one may be look. */
+/* Bonds whose normal stress is above share * limit are marked; measure: that stress [Pa]; n_marked [n_groups]: how
+ * many. Only groups of elements where one may be look. */
 KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
                             OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
                             GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,

@@ -192,7 +192,8 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
                                {0}};
     if ((whole ? l->n_pairs : c->n_todo) == 0) return BRC_OK;
     brc_rows_among *const outer = brc_device_keep_among(s->device, items.among);
-    const brc_status status = brc_pass_run_on(brc_has_spheres(s) ? c->pass.spheres : c->pass.cells, items.n, NULL, NULL, given);
+    const brc_status status =
+        brc_pass_run_on(brc_has_spheres(s) ? c->pass.spheres : c->pass.cells, items.n, NULL, NULL, given);
     brc_device_keep_among(s->device, outer);
     return status;
 }

@@ -119,7 +119,9 @@ typedef struct brc_contact_items {
 } brc_contact_items;
 /* All pairs, or those of c->todo. */
 brc_contact_items brc_contact_items_of(const brc_simulation *s, bool whole);
-/* After the list is made; after c->todo is. */
+/* The listed elements, c->listed: what the search for pairs keeps to. */
+brc_status brc_contact_share_list(brc_simulation *s);
+/* After the list of pairs is made; after c->todo is. */
 brc_status brc_contact_share_pairs(brc_simulation *s);
 brc_status brc_contact_share_todo(brc_simulation *s);
 /* Before the host reads touch, result or history of all pairs. */

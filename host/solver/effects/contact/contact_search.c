@@ -392,18 +392,6 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
                    {"stride", BRC_INT(carried ? stride_of(c) : 0)});
 }
 
-/* The first n numbers of a list of rows, as the set that passes keep to. */
-static brc_status keep_to(brc_simulation *s, brc_buffer *list, int64_t n, brc_rows_among **out)
-{
-    int32_t *rows = NULL;
-    if (!brc_device_is_shared(s->device)) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, n, "elements of contact"));
-    brc_status status = brc_buffer_read(list, 0, rows, n * (int64_t)sizeof *rows);
-    if (status == BRC_OK) status = brc_rows_among_make(s->device, (int32_t)n, rows, out);
-    brc_memory_free(rows);
-    return status;
-}
-
 static brc_status find_pairs(brc_simulation *s, bool whole, bool carried)
 {
     BRC_TRY(find_entries(s, whole));
@@ -422,7 +410,7 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     c->lists += 1;
     BRC_TRY(list_exposed(s));
     if (c->now.n_listed == 0) return BRC_OK;
-    BRC_TRY(keep_to(s, c->now.list, c->now.n_listed, &c->listed));
+    BRC_TRY(brc_contact_share_list(s));
     brc_rows_among *const outer = brc_device_keep_among(s->device, c->listed);
     const brc_status status = find_pairs(s, whole, carried);
     brc_device_keep_among(s->device, outer);

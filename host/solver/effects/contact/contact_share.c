@@ -1,6 +1,6 @@
-/* Which pairs are evaluated here (device/shares.h): those with an element that is computed here, whose results it takes,
- * and those with strikers, whose loads are sums of all. Of the others results and histories are out of date, until all
- * are asked for. */
+/* Which pairs are evaluated here (device/shares.h): those with an element that is computed here, whose results it
+ * takes, and those with strikers, whose loads are sums of all. Of the others results and histories are out of date,
+ * until all are asked for. */
 #include "contact_internal.h"
 #include "../../../device/shares.h"
 
@@ -12,6 +12,19 @@ struct brc_contact_share {
     brc_buffer *own, *todo;   /* [room] pairs; of those that breaks may have changed */
     brc_rows_among *crossing; /* their elements that are computed elsewhere too */
 };
+
+brc_status brc_contact_share_list(brc_simulation *s)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = c->now.n_listed;
+    int32_t *rows = NULL;
+    if (!brc_device_is_shared(s->device)) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(s->context, &rows, n, "elements of contact"));
+    brc_status status = brc_buffer_read(c->now.list, 0, rows, n * (int64_t)sizeof *rows);
+    if (status == BRC_OK) status = brc_rows_among_make(s->device, n, rows, &c->listed);
+    brc_memory_free(rows);
+    return status;
+}
 
 void brc_contact_share_free(brc_contact_state *c)
 {
@@ -111,7 +124,8 @@ brc_status brc_contact_bring_pairs(brc_simulation *s)
     for (int64_t p = 0; p < h->n_pairs; ++p)
         row[p] = h->ends[2 * p];
     BRC_TRY_OR(cleanup, brc_buffer_bring_items(c->touch, 4, h->n_pairs, row));
-    BRC_TRY_OR(cleanup, brc_buffer_bring_items(c->result, (BRC_CONTACT_RESULT + 2 * c->width) * state, h->n_pairs, row));
+    BRC_TRY_OR(cleanup,
+               brc_buffer_bring_items(c->result, (BRC_CONTACT_RESULT + 2 * c->width) * state, h->n_pairs, row));
     status = brc_buffer_bring_items(c->now.history, BRC_CONTACT_HISTORY * state, h->n_pairs, row);
 cleanup:
     brc_memory_free(row);
