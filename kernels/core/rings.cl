@@ -62,9 +62,9 @@ LAW int rings_reach(lane_int touched, lane_int level)
 
 /* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum.
  * n and SCAN_BLOCK are multiples of W. */
-KERNEL void ring_count(int n_blocks, int n, int which, OWN(int) touched, OWN(int) level, SCATTER(int) count)
+KERNEL void ring_count(int n_parts, int n, int which, OWN(int) touched, OWN(int) level, PUT(int) count)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    FOR_EACH_ITEM(b, n_parts) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
 #define NONE(l) 0
         const lane_int none = LANE_MAKE(lane_int, NONE);
@@ -80,7 +80,7 @@ KERNEL void ring_count(int n_blocks, int n, int which, OWN(int) touched, OWN(int
 #define ADD(l) sum += LANE_ITEM(upto[k], l);
             LANE_EACH(ADD)
 #undef ADD
-            count[k * (n_blocks + 1) + b] = sum;
+            count[k * (n_parts + 1) + b] = sum;
         }
     }
 }

@@ -20,7 +20,7 @@ sys.path.insert(0, os.path.join(os.environ["BRC_SOURCE_DIR"], "tests", "digest")
 import test_digest as digests  # noqa: E402
 
 PLAIN = os.environ["BRC_PROGRAM"]
-FEW = {"ball-breaks+softening": 3, "beams-two-materials": 2, "cells-two-materials": 4, "published-breaks": 3, "cube-modes": 2, "two-models": 4,
+FEW = {"plate-impact": 3, "cells-shear": 2, "ball-breaks+softening": 3, "beams-two-materials": 2, "cells-two-materials": 4, "published-breaks": 3, "cube-modes": 2, "two-models": 4,
        "tension-dynamic": 8}
 FAILURES = []
 

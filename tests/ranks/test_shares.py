@@ -1,0 +1,108 @@
+"""What each rank has and sends, of a plate that a ball strikes: on two ranks the bytes of one, at most 0.6 of its memory, and no more
+numbers than the surface between their rows has.
+
+Sizes: sums are of blocks that belong to one rank each where there are 4 blocks a rank or more (host/device/shares_rows.c): 8192 rows
+of any instruction set, 16 384 where groups of two rows are summed up. Memory: the plate of 1e5 cells, whose libraries and code (60 MB) are
+a tenth of what two ranks have. Memory that ranks share counts once (proportional set size)."""
+import filecmp
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import under
+
+PROGRAM = under.need("bin/breccia-mpi")
+PLAIN = os.environ["BRC_PROGRAM"]
+SCENE = os.path.join(os.environ["BRC_SOURCE_DIR"], "examples/plate-impact/scene.yaml")
+FAILURES = []
+
+
+def expect(condition, sentence):
+    print(sentence)
+    if not condition:
+        FAILURES.append(sentence)
+
+
+def line(folder, n_cells, duration):
+    sets = [f"bodies.plate.fill.noisy_grid.elements={n_cells}", f"stages.hit.solver.dynamic.duration={duration}", "output.frames=1",
+            "output.picture=false", "output.checkpoint.every=1e9 s"]
+    return ["run", SCENE, "-o", folder, *[word for one in sets for word in ("--set", one)]]
+
+
+def resident(process):
+    """Proportional bytes of the process; 0 once it has ended."""
+    try:
+        with open(f"/proc/{process}/smaps_rollup", encoding="ascii") as file:
+            return 1024 * int(re.search(r"^Pss:\s+(\d+)", file.read(), re.M).group(1))
+    except (OSError, AttributeError):
+        return 0
+
+
+def below(process):
+    """The process and all that it started."""
+    found, children = [], {}
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", encoding="ascii", errors="replace") as file:
+                children.setdefault(int(file.read().rsplit(")", 1)[1].split()[1]), []).append(int(name))
+        except OSError:
+            pass
+    todo = [process]
+    while todo:
+        found.append(todo.pop())
+        todo += children.get(found[-1], [])
+    return found
+
+
+def run(n, *arguments, environment=None):
+    """Most memory of a rank [byte]; the run must end well."""
+    command = [PLAIN, *arguments] if n == 1 else under.LAUNCH + ["-n", str(n), PROGRAM, *arguments]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env=dict(os.environ, OMP_NUM_THREADS=str(3 - n), **(environment or {})))
+    most = 0
+    while process.poll() is None:
+        most = max([most] + [resident(one) for one in below(process.pid)])
+        time.sleep(0.1)
+    assert process.returncode == 0, process.stderr.read()
+    return most
+
+
+def same(folder, n_cells, environment):
+    for n in (1, 2):
+        run(n, *line(f"{folder}/{n}", n_cells, "1 us"), environment=environment)
+    files = ["histories.csv", "cracks.csv", "fragments.csv"]
+    _, different, missing = filecmp.cmpfiles(f"{folder}/1", f"{folder}/2", files, shallow=False)
+    with open(f"{folder}/1/summary.json", encoding="utf-8") as file:
+        broken = json.load(file)["counts"]["broken"]
+    expect(not different and not missing, f"{n_cells} cells, {environment or 'all sets'}: other {different + missing}" if different or missing
+           else f"{n_cells} cells on 2 ranks: same bytes, {broken} bonds broken")
+
+
+def memory(folder):
+    one, two = (run(n, *line(f"{folder}/memory-{n}", 100000, "0.05 us")) for n in (1, 2))
+    expect(two <= 0.6 * one, f"memory of a rank of two: {two / one:.2f} of {one / 1e6:.0f} MB (0.6 asked)")
+
+
+def sent():
+    """Bytes of a step against the rows that the cut gives."""
+    surface = subprocess.run([PLAIN, "bench", "ranks", "--problems", "surface", "--sizes", "20000"], capture_output=True, text=True, check=True)
+    process = under.start(2, [PROGRAM, "bench", "ranks", "--problems", "step", "--sizes", "20000", "--steps", "20", "--threads", "1"])
+    output, errors = process.communicate(timeout=300)
+    assert process.returncode == 0, errors
+    ghosts = int(re.search(r"surface +2 ranks.*?most +(\d+)\)", surface.stdout).group(1))
+    sends = float(re.search(r"messages +(\d+) bytes", output).group(1))
+    expect(abs(sends / (240 * ghosts) - 1) <= 0.2, f"a step sends {sends:.0f} bytes, {sends / (240 * ghosts):.3f} of what {ghosts} rows have (0.2 asked)")
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    os.chdir(temporary)
+    for k, (cells, chosen) in enumerate(((9000, {}), (17000, {"BRECCIA_ISA": "v2"}))):
+        same(f"{temporary}/{k}", cells, chosen)
+    memory(temporary)
+    sent()
+for failure in FAILURES:
+    print("shares: " + failure)
+sys.exit(1 if FAILURES else 0)
