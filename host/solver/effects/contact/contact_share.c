@@ -43,7 +43,7 @@ static brc_status make_room(brc_simulation *s, struct brc_contact_share *h, int6
 {
     BRC_TRY(brc_memory_resize(s->context, (void **)&h->ends, 2 * n, sizeof *h->ends, "pairs"));
     if (h->own && n <= h->room) return BRC_OK;
-    h->room = brc_contact_room(n);
+    h->room = n + n / 8 + 1; /* as those of the list */
     BRC_TRY(brc_memory_resize(s->context, (void **)&h->number, h->room, sizeof *h->number, "pairs"));
     brc_buffer_free(&h->own);
     brc_buffer_free(&h->todo);
