@@ -184,16 +184,17 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
     const brc_contact_list *l = &c->now;
     const int32_t n = s->layout->n_rows;
     const brc_contact_items items = brc_contact_items_of(s, whole);
-    const brc_given given[] = {{"whole", BRC_INT(items.whole ? 1 : 0)},
-                               {"dt", BRC_STATE(dt)},
-                               {"n", BRC_INT(n)},
-                               {"todo", BRC_BUF(items.todo)},
-                               {"broke", BRC_INT(broke ? 1 : 0)},
-                               {0}};
+    const bool spheres = brc_has_spheres(s);
+    brc_given given[] = {{"whole", BRC_INT(items.whole ? 1 : 0)},
+                         {"dt", BRC_STATE(dt)},
+                         {"n", BRC_INT(n)},
+                         {"todo", BRC_BUF(items.todo)},
+                         {"broke", BRC_INT(broke ? 1 : 0)},
+                         {0}};
+    if (spheres) given[4] = (brc_given){0};
     if ((whole ? l->n_pairs : c->n_todo) == 0) return BRC_OK;
     brc_rows_among *const outer = brc_device_keep_among(s->device, items.among);
-    const brc_status status =
-        brc_pass_run_on(brc_has_spheres(s) ? c->pass.spheres : c->pass.cells, items.n, NULL, NULL, given);
+    const brc_status status = brc_pass_run_on(spheres ? c->pass.spheres : c->pass.cells, items.n, NULL, NULL, given);
     brc_device_keep_among(s->device, outer);
     return status;
 }
