@@ -18,7 +18,7 @@ printf 'int LLVMFuzzerTestOneInput(const unsigned char *d, unsigned long n) { re
 # shapes and limits of quality come from the build's library; the version is generated, and the reader does not ask for it; ranks_mpi.c is ranks_one.c of breccia-mpi
 base=$(ls "$source"/host/base/*.c | grep -v -e /version.c -e /ranks_mpi.c)
 "$clang" -std=gnu11 -D_GNU_SOURCE -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
-    "$source"/tests/fuzz/fuzz_scene.c "$source"/host/scene/*.c "$source"/host/scene/models/*.c $base "${BRC_BUILD_DIR:?}"/libbrc_preprocess.a -o "$folder/fuzz_scene" -lyaml -lm
+    "$source"/tests/fuzz/fuzz_scene.c "$source"/host/scene/*.c "$source"/host/scene/models/*.c $base "${BRC_BUILD_DIR:?}"/libbrc_preprocess.a -o "$folder/fuzz_scene" -lyaml -lm "$(gcc -print-file-name=libgomp.so)"
 mkdir "$folder/corpus"
 for scene in "$source"/examples/*/scene.yaml; do
     cp "$scene" "$folder/corpus/$(basename "$(dirname "$scene")").yaml"
