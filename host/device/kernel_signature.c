@@ -107,6 +107,13 @@ static brc_array_of items_of(const brc_kernel_signature *k, bool pass, bool list
     return BRC_OF_NOTHING;
 }
 
+static int list_in(const brc_kernel_signature *k)
+{
+    for (int a = 1; a < k->n; ++a)
+        if (k->use[a] == BRC_USE_OWN && begins(k->name[a], "list")) return a;
+    return 0;
+}
+
 /* What is behind the bracket that opens the parameters, where the text at `word` is the kernel's name. */
 static const char *list_of(const char *word, const char *name, bool *listed)
 {
@@ -137,6 +144,7 @@ void brc_kernel_signature_read(const char *name, brc_kernel_signature *out)
                 *out = (brc_kernel_signature){0};
                 return;
             }
+            out->list = list_in(out);
             out->items = items_of(out, strncmp(word, "PASS(", 5) == 0, listed);
         }
 }

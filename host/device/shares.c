@@ -36,13 +36,6 @@ static brc_buffer *buffer_of(const shared *l, int a)
     return l->args[a].kind == BRC_ARG_BUFFER ? l->args[a].value.buffer : NULL;
 }
 
-static bool is_named(const brc_kernel *kernel, int a, const char *word)
-{
-    char name[64];
-    (void)brc_kernel_parameter(kernel, a, name, sizeof name);
-    return strcmp(name, word) == 0;
-}
-
 /* Every array that is written lies in rows, and is written at own ones; may_flag: or at others by flags. */
 static bool writes_rows(const shared *l, bool may_flag)
 {
@@ -119,10 +112,8 @@ static bool own_blocks(shared *l, int64_t n_items)
 /* A list of rows that is the same on all ranks. */
 static bool has_list(const shared *l)
 {
-    for (int a = 0; a < l->n_args; ++a)
-        if (l->kernel->signature.use[a] == BRC_USE_OWN && is_named(l->kernel, a, "list"))
-            return buffer_of(l, a) != NULL;
-    return false;
+    const int at = l->kernel->signature.list;
+    return at > 0 && at < l->n_args && buffer_of(l, at) != NULL;
 }
 
 /* Rows of others than the set are written. */

@@ -58,6 +58,14 @@ void brc_share_pages(const brc_buffer *buffer)
     advise(buffer, own.first, own.end, LARGE, MADV_HUGEPAGE);
 }
 
+void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes, int64_t number)
+{
+    buffer->of = what;
+    buffer->each = bytes;
+    buffer->number = number;
+    brc_share_pages(buffer);
+}
+
 void brc_share_give_back(brc_buffer *buffer)
 {
     const int64_t now = buffer->device->shares->n_launches;

@@ -201,14 +201,6 @@ void brc_shares_free(brc_device *device)
     device->shares = NULL;
 }
 
-void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes, int64_t number)
-{
-    buffer->of = what;
-    buffer->each = bytes;
-    buffer->number = number;
-    brc_share_pages(buffer);
-}
-
 /* ---- sets of rows ---- */
 
 brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *rows, brc_rows_among **out)

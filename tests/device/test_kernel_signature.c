@@ -67,8 +67,9 @@ static void markers_are_const_where_they_do_not_write(void **unused)
 {
     (void)unused;
     static const char *const markers[] = {
-        [BRC_USE_OWN] = "OWN",       [BRC_USE_GATHER] = "GATHER",   [BRC_USE_PUT] = "PUT",
-        [BRC_USE_UPDATE] = "UPDATE", [BRC_USE_SCATTER] = "SCATTER",
+        [BRC_USE_OWN] = "OWN",         [BRC_USE_GATHER] = "GATHER", [BRC_USE_PUT] = "PUT",
+        [BRC_USE_UPDATE] = "UPDATE",   [BRC_USE_FLAG] = "FLAG",     [BRC_USE_SPREAD] = "SPREAD",
+        [BRC_USE_SCATTER] = "SCATTER",
     };
     const char *const text = brc_kernel_text("core/portable.h");
     for (int use = BRC_USE_OWN; use <= BRC_USE_SCATTER; ++use) {

@@ -37,6 +37,8 @@ def launcher(folder, n):
 def same(folder, name, counts, precision="double"):
     way = digests.Way("cpu")
     alone = digests.run(PLAIN, name, way, precision, os.path.join(folder, f"{name}-1"))
+    if alone and "exit" in alone:
+        FAILURES.append(f"{name} on one rank: exit {alone['exit']}")
     for n in counts if alone else []:
         several = digests.run(launcher(folder, n), name, way, precision, os.path.join(folder, f"{name}-{n}"))
         differs = [key for key in alone if several.get(key) != alone[key]]
