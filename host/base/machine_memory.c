@@ -96,12 +96,14 @@ static brc_status map(brc_context *context, int file, void *at, brc_machine_memo
             *out = (brc_machine_memory){data, first.bytes};
     }
     if (there >= 0) close(there);
-    return status;
+    return brc_ranks_agree(context, status); /* a rank alone without it would go on another way */
 }
 
 brc_status brc_machine_memory_map(brc_context *context, int file, brc_machine_memory *out)
 {
-    return map(context, file, NULL, out);
+    const brc_status status = map(context, file, NULL, out);
+    if (status != BRC_OK) brc_machine_memory_free(out);
+    return status;
 }
 
 brc_status brc_machine_memory_lay(brc_context *context, int file, void *at)

@@ -69,6 +69,8 @@ static bool own_numbers(shared *l, int64_t n_items)
     if (width < 1 || n_items % h->rows.n_rows != 0) return false;
     for (int a = 0; a < l->n_args; ++a) {
         const brc_buffer *const buffer = buffer_of(l, a);
+        const brc_use use = l->kernel->signature.use[a];
+        if (use == BRC_USE_SCATTER || use == BRC_USE_GATHER || flags(use)) return false;
         if (buffer && (buffer->of != BRC_OF_ROWS || buffer->each != width * buffer->number)) return false;
     }
     l->first = width * brc_share_before(h, BRC_OF_ROWS, h->first_slice[h->mine]);
@@ -113,7 +115,8 @@ static bool own_blocks(shared *l, int64_t n_items)
 static bool has_list(const shared *l)
 {
     const int at = l->kernel->signature.list;
-    return at > 0 && at < l->n_args && buffer_of(l, at) != NULL;
+    const brc_buffer *const list = at > 0 && at < l->n_args ? buffer_of(l, at) : NULL;
+    return list && list->where == BRC_EVERYWHERE;
 }
 
 /* Rows of others than the set are written. */

@@ -28,7 +28,7 @@ typedef enum brc_array_of {
     BRC_OF_SLICES, /* numbers of the rows of a slice lie beside each other */
     BRC_OF_GROUPS,
     BRC_OF_SLOTS,
-    BRC_OF_LOOSE,   /* places of rows, in no order: each rank's own are right, and nobody else reads them */
+    BRC_OF_LOOSE,   /* of each rank alone: places of its rows in no order, lists of what it does */
     BRC_OF_NUMBERS, /* items alone: of rows, as many of each */
     BRC_OF_BLOCKS   /* sums and the like of blocks of such numbers */
 } brc_array_of;

@@ -120,18 +120,23 @@ static brc_messages like(const shares *h, const brc_buffer *buffer, bool back)
         .bytes = slots ? buffer->each / h->rows.slice : buffer->each, .of_slots = slots, .back = back};
 }
 
+/* What an exchange of an array needs. */
+static brc_status open_exchange(brc_buffer *buffer, bool back, brc_messages **m, char **image)
+{
+    shares *h = buffer->device->shares;
+    const brc_messages wanted = like(h, buffer, back);
+    BRC_TRY(messages_of(buffer->device->context, h, &wanted, m));
+    return open_image(buffer, image);
+}
+
 brc_status brc_share_bring_near(brc_buffer *buffer)
 {
-    brc_context *context = buffer->device->context;
-    shares *h = buffer->device->shares;
-    const brc_messages wanted = like(h, buffer, false);
+    const shares *h = buffer->device->shares;
     brc_messages *m;
     char *image = NULL;
-    brc_status status = messages_of(context, h, &wanted, &m);
-    if (status == BRC_OK) status = open_image(buffer, &image);
-    BRC_TRY(status);
+    BRC_TRY(open_exchange(buffer, false, &m, &image));
     carry_beside(h, buffer, image, &h->give, m->send, true);
-    status = exchange(context, m);
+    const brc_status status = exchange(buffer->device->context, m);
     if (status == BRC_OK) carry_beside(h, buffer, image, &h->take, m->receive, false);
     buffer->where = BRC_NEAR;
     return close_image(buffer, image, status);
@@ -139,18 +144,14 @@ brc_status brc_share_bring_near(brc_buffer *buffer)
 
 brc_status brc_share_settle(brc_buffer *buffer)
 {
-    brc_context *context = buffer->device->context;
-    shares *h = buffer->device->shares;
-    const brc_messages wanted = like(h, buffer, true);
+    const shares *h = buffer->device->shares;
     brc_messages *m;
     char *image = NULL;
     if (!h || !buffer->marked) return BRC_OK;
     buffer->marked = false;
-    brc_status status = messages_of(context, h, &wanted, &m);
-    if (status == BRC_OK) status = open_image(buffer, &image);
-    BRC_TRY(status);
+    BRC_TRY(open_exchange(buffer, true, &m, &image));
     carry_beside(h, buffer, image, &h->take, m->send, true);
-    status = exchange(context, m);
+    const brc_status status = exchange(buffer->device->context, m);
     for (int64_t k = 0; status == BRC_OK && k < h->give.start[h->n_beside]; ++k) {
         int32_t *const own = (int32_t *)(void *)image + h->give.row[k];
         const int32_t theirs = ((const int32_t *)(const void *)m->receive)[k];

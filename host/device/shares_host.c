@@ -10,6 +10,7 @@
 typedef struct brc_shares shares;
 
 enum {
+    SPARE = 64,
     LARGE = 2 << 20, /* bytes of an array whose pages are worth a call (device_cpu.c) */
     LAUNCHES_BETWEEN = 512
 }; /* giving back pages of one array: those of some come and go in every step */
@@ -139,8 +140,10 @@ bool brc_share_once(brc_buffer *buffer, int64_t offset, const void *data, int64_
 {
     shares *h = buffer->device->shares;
     if (!h || !h->ranks_meet || buffer->device->info.kind != BRC_DEVICE_CPU || buffer->of != BRC_OF_NOTHING ||
-        offset != 0 || bytes < LARGE || buffer->is_scratch)
+        buffer->is_scratch)
         return false;
+    /* what follows in the last page becomes 0: no more than the spare numbers of an array (solver/core/fields.c) */
+    if (offset != 0 || bytes < LARGE || buffer->bytes - bytes > SPARE) return false;
     h->ranks_meet = write_once(buffer->device->context, buffer, data, bytes) == BRC_OK;
     return h->ranks_meet;
 }

@@ -48,7 +48,10 @@ static brc_status make_room(brc_simulation *s, struct brc_contact_share *h, int6
     brc_buffer_free(&h->own);
     brc_buffer_free(&h->todo);
     BRC_TRY(brc_buffer_create(s->device, &h->own, 4 * h->room, "pairs"));
-    return brc_buffer_create(s->device, &h->todo, 4 * h->room, "pairs");
+    brc_buffer_is_of(h->own, BRC_OF_LOOSE, 4, 4);
+    BRC_TRY(brc_buffer_create(s->device, &h->todo, 4 * h->room, "pairs"));
+    brc_buffer_is_of(h->todo, BRC_OF_LOOSE, 4, 4);
+    return BRC_OK;
 }
 
 static bool is_own(const brc_simulation *s, const struct brc_contact_share *h, int32_t p)
