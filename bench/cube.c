@@ -1,4 +1,5 @@
 #include "cube.h"
+#include "../host/base/memory.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -47,7 +48,7 @@ void brc_cube_make(brc_cube *c, brc_model_kind model)
 }
 
 /* Its relaxation is no part of what is measured, so it stops early. */
-static brc_status build_packing(brc_context *context, const double edges[3], int64_t size, brc_domain **out)
+static brc_status pack(brc_context *context, const double edges[3], int64_t size, brc_domain **out)
 {
     brc_build_request packed = {.shape = {.kind = BRC_SHAPE_BOX, .size = {edges[0], edges[1], edges[2]}},
                                 .fill = {.kind = BRC_FILL_PACKING,
@@ -58,6 +59,52 @@ static brc_status build_packing(brc_context *context, const double edges[3], int
                                          .seed = 1},
                                 .beams = 10};
     return brc_domain_build(context, &packed, out);
+}
+
+/* The image of a coordinate in a mirrored tile: tiles of odd number are turned over. */
+static double mirrored(double x, double edge, int tile)
+{
+    return edge * tile + (tile % 2 ? edge - x : x);
+}
+
+/* Packing takes minutes a million spheres: more than MOST_PACKED are mirror images of a packing in a part of the box,
+ * whose walls its spheres touch. */
+static brc_status build_packing(brc_context *context, const double edges[3], int64_t size, brc_domain **out)
+{
+    enum { MOST_PACKED = 100000 };
+    int tiles = 1;
+    while (size / ((int64_t)tiles * tiles * tiles) > MOST_PACKED)
+        ++tiles;
+    if (tiles == 1) return pack(context, edges, size, out);
+    const int n_tiles = tiles * tiles * tiles;
+    const double part[3] = {edges[0] / tiles, edges[1] / tiles, edges[2] / tiles};
+    brc_status status = BRC_OK;
+    brc_domain *one = NULL;
+    double *points = NULL, *radii = NULL;
+    *out = NULL;
+    BRC_TRY(pack(context, part, size / n_tiles, &one));
+    const int64_t n = one->n_elements;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &points, 3 * n * n_tiles, "centres of mirrored spheres"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &radii, n * n_tiles, "radii of mirrored spheres"));
+    for (int64_t e = 0; e < n * n_tiles; ++e) {
+        const int t = (int)(e / n), tile[3] = {t % tiles, t / tiles % tiles, t / (tiles * tiles)};
+        radii[e] = one->radius[e % n];
+        for (int k = 0; k < 3; ++k)
+            points[3 * e + k] = mirrored(one->position[3 * (e % n) + k], part[k], tile[k]);
+    }
+    brc_domain_free(&one);
+    const brc_build_request request = {.shape = {.kind = BRC_SHAPE_BOX, .size = {edges[0], edges[1], edges[2]}},
+                                       .fill = {.kind = BRC_FILL_POINTS, .file = "mirrored spheres", .scale = 1},
+                                       .n_points = n * n_tiles,
+                                       .points = points,
+                                       .radii = radii,
+                                       .beams = 10};
+    status = brc_domain_build(context, &request, out);
+cleanup:
+    brc_domain_free(&one);
+    brc_memory_free(points);
+    brc_memory_free(radii);
+    return status;
 }
 
 brc_status brc_cube_build(brc_context *context, int64_t size, bool spheres, brc_domain **out)

@@ -4,6 +4,7 @@
 #include "program_source.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,35 @@ static const char *exact_options(brc_device *device, cl_device_id id)
             "differ from those of other devices in spite of exact",
             device->info.selector, brc_precision_name(device->precision));
     return " -D BRC_EXACT";
+}
+
+/* Where what the compiler says of every program is added (docs/notebook/devices.md); NULL: nowhere. */
+static const char *log_path(void)
+{
+    const char *const path = getenv("BRECCIA_OPENCL_LOG");
+    return path && path[0] ? path : NULL;
+}
+
+static void add_to_log(brc_device *device, const char *options, const char *log)
+{
+    FILE *const file = fopen(log_path(), "a");
+    bool written = file != NULL;
+    if (file) {
+        fprintf(file, "options: %s\n%s\n", options, log ? log : "");
+        written = fclose(file) == 0;
+    }
+    if (!written)
+        brc_log(device->context, BRC_LOG_WARNING, "the compiler log of BRECCIA_OPENCL_LOG is not written to %s: %s",
+                log_path(), strerror(errno));
+}
+
+/* NVIDIA's compiler tells registers and spills of each kernel in its log where it is asked to. */
+static const char *verbose_option(brc_device *device, cl_device_id id)
+{
+    char extensions[4096] = "";
+    if (!log_path()) return "";
+    if (clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, sizeof extensions - 1, extensions, NULL) != CL_SUCCESS) return "";
+    return strstr(extensions, "cl_nv_compiler_options") ? " -cl-nv-verbose" : "";
 }
 
 /* What a compiled program depends on, as text: platform, device and driver with their versions, options, source. Freed
@@ -118,7 +148,9 @@ static brc_status compile(brc_device *device, cl_context context, cl_device_id i
     *out = clCreateProgramWithSource(context, 1, (const char **)(uintptr_t)sources, NULL, &code);
     BRC_TRY(brc_opencl_check(device, code, "taking the kernel text"));
     code = clBuildProgram(*out, 1, &id, options, NULL, NULL);
-    if (code != CL_SUCCESS || brc_log_get_level(device->context) >= BRC_LOG_DEBUG) log = build_log(device, *out, id);
+    if (code != CL_SUCCESS || log_path() || brc_log_get_level(device->context) >= BRC_LOG_DEBUG)
+        log = build_log(device, *out, id);
+    if (log_path()) add_to_log(device, options, log);
     if (code != CL_SUCCESS)
         status = BRC_FAIL(device->context, BRC_DEVICE_FAILED,
                           "device %s, %s: the kernels%s%s do not compile: %s\noptions: %s\ncompiler log:\n%s", text,
@@ -139,9 +171,9 @@ brc_status brc_opencl_build(brc_device *device, const brc_opencl_request *r, cl_
     *out = NULL;
     snprintf(options, sizeof options,
              "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D "
-             "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s",
+             "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s%s",
              (int)device->precision, device->lanes, device->slice, (int)r->group, (int)device->many_materials,
-             device->exact ? exact_options(device, r->id) : "");
+             device->exact ? exact_options(device, r->id) : "", verbose_option(device, r->id));
     BRC_TRY_OR(cleanup, brc_program_source(device->context, r->folder, r->part, &source));
     BRC_TRY_OR(cleanup, make_key(device, r->id, options, source, &key));
     if (is_kept(device)) *out = kept_program(device, r->context, r->id, options, key);

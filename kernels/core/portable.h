@@ -97,7 +97,7 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 #define LANE_SQRT(x) sqrt(x)
 #define SQRT(x) sqrt(x)
 #define SQRT_STATE(x) sqrt(x)
-#define LANE_MAKE_(type, ...) ((type)(__VA_ARGS__))
+#define LANE_MAKE_(type, items) ((type)items)
 #define LANE_ZERO ((lane)(0))
 #define LANE_ITEM_(x, hex) x.s##hex
 
@@ -206,7 +206,8 @@ LAW int brc_lane_any_short(lane a, lane b)
     return some;
 }
 #endif
-#define LANE_MAKE_(type, ...) ((type){__VA_ARGS__})
+#define BRC_LIST(...) __VA_ARGS__
+#define LANE_MAKE_(type, items) ((type){BRC_LIST items})
 #define LANE_ZERO ((lane){0})
 #define LANE_ITEM_(x, hex) x[0x##hex]
 
@@ -215,8 +216,7 @@ LAW int brc_lane_any_short(lane a, lane b)
 /* How a kernel uses an array, by rows: those of the item's own elements, their slots, slices, faces and pairs, and all
  * others, as of neighbours. Read at its own; read at others too; written at its own; read and written at its own;
  * raised to one and the same number at others too, neighbours by bonds; the same, and read at its own; written, and
- * others read or written too.
- * tests/kernels/test_kernel_markers.py checks all. */
+ * others read or written too; tests/kernels/test_kernel_markers.py checks all. */
 #define OWN(type) GLOBAL const type *restrict
 #define GATHER(type) GLOBAL const type *restrict
 #define PUT(type) GLOBAL type *restrict
@@ -270,16 +270,16 @@ typedef int aside;
 #define LANE_ITEM(x, l) (x)
 #define LANE_EACH(F) F(0)
 #elif W == 4
-#define LANE_MAKE(type, F) LANE_MAKE_(type, F(0), F(1), F(2), F(3))
+#define LANE_MAKE(type, F) LANE_MAKE_(type, (F(0), F(1), F(2), F(3)))
 #define LANE_ITEM(x, l) LANE_ITEM_(x, l)
 #define LANE_EACH(F) F(0) F(1) F(2) F(3)
 #elif W == 8
-#define LANE_MAKE(type, F) LANE_MAKE_(type, F(0), F(1), F(2), F(3), F(4), F(5), F(6), F(7))
+#define LANE_MAKE(type, F) LANE_MAKE_(type, (F(0), F(1), F(2), F(3), F(4), F(5), F(6), F(7)))
 #define LANE_ITEM(x, l) LANE_ITEM_(x, l)
 #define LANE_EACH(F) F(0) F(1) F(2) F(3) F(4) F(5) F(6) F(7)
 #elif W == 16
 #define LANE_MAKE(type, F)                                                                                             \
-    LANE_MAKE_(type, F(0), F(1), F(2), F(3), F(4), F(5), F(6), F(7), F(8), F(9), F(a), F(b), F(c), F(d), F(e), F(f))
+    LANE_MAKE_(type, (F(0), F(1), F(2), F(3), F(4), F(5), F(6), F(7), F(8), F(9), F(a), F(b), F(c), F(d), F(e), F(f)))
 #define LANE_ITEM(x, l) LANE_ITEM_(x, l)
 #define LANE_EACH(F) F(0) F(1) F(2) F(3) F(4) F(5) F(6) F(7) F(8) F(9) F(a) F(b) F(c) F(d) F(e) F(f)
 #else
@@ -290,7 +290,7 @@ typedef int aside;
  * four doubles and AVX2, whose shuffles do as many. With eight doubles on AVX2 each shuffle would become several
  * (measured: a third slower), so there and elsewhere numbers are gathered one by one. A vector reaches up to LANE_SPARE
  * numbers beyond the last record, which the host allocates. */
-#if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
+#if W > 1 && defined(__AVX2__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12))
 #define LANE_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #if W == 8 && (defined(__AVX512F__) || (defined(__AVX2__) && BRC_PRECISION > 0 && !defined(__OPENCL_VERSION__)))
 #define LANE_SHUFFLES 8

@@ -78,6 +78,23 @@ static brc_status check_request(brc_context *context, const brc_build_request *r
     return brc_cracks_check(context, request->n_cracks, request->cracks);
 }
 
+/* The points of the request, as a file would give them. */
+static brc_status take_points(brc_context *context, const brc_build_request *request, work *w)
+{
+    const brc_fill *const fill = &request->fill;
+    if (request->n_points == 0) {
+        BRC_TRY(brc_points_read(context, fill->file, fill->scale, &w->position, &w->radius, &w->n));
+        return w->n > 0 ? BRC_OK : BRC_FAIL(context, BRC_BAD_INPUT, "fill: %s has no points", fill->file);
+    }
+    w->n = request->n_points;
+    BRC_TRY(BRC_ALLOCATE(context, &w->position, 3 * w->n, "points"));
+    memcpy(w->position, request->points, sizeof *w->position * 3 * (size_t)w->n);
+    if (!request->radii) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(context, &w->radius, w->n, "radii of points"));
+    memcpy(w->radius, request->radii, sizeof *w->radius * (size_t)w->n);
+    return BRC_OK;
+}
+
 /* Everything known before a seed is placed: solid, walls, grid. What is held is the caller's to free in any case. */
 static brc_status plan(brc_context *context, const brc_build_request *request, work *w)
 {
@@ -87,8 +104,7 @@ static brc_status plan(brc_context *context, const brc_build_request *request, w
     BRC_TRY(check_request(context, request));
     BRC_TRY(brc_solid_create(context, &request->shape, w->n_threads, &w->solid));
     if (request->fill.kind == BRC_FILL_POINTS) {
-        BRC_TRY(brc_points_read(context, request->fill.file, request->fill.scale, &w->position, &w->radius, &w->n));
-        if (w->n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "fill: %s has no points", request->fill.file);
+        BRC_TRY(take_points(context, request, w));
     } else {
         /* before anything is allocated by the number of elements */
         const double n = brc_estimate_elements(w->solid, &request->fill);

@@ -164,6 +164,9 @@ typedef struct brc_build_request {
     const brc_predicate
         *regions;               /* [n_regions] borrowed; element in region r + 1 if its position fits; the last wins */
     double tiny_face_threshold; /* [-] of the mean face area; faces below it are dropped; 0: default 1e-12 */
+    int64_t n_points;           /* of a fill of points given here, which fill.file then only names; 0: read the file */
+    const double *points;       /* [n_points][3] borrowed [m] */
+    const double *radii;        /* [n_points] borrowed [m]; NULL: points without radii */
     int32_t n_threads;          /* 0: as OpenMP decides. The result does not depend on it, bit for bit. */
     int32_t body;               /* written into brc_domain.body */
 } brc_build_request;
