@@ -166,14 +166,16 @@ static brc_status compile(brc_device *device, cl_context context, cl_device_id i
 brc_status brc_opencl_build(brc_device *device, const brc_opencl_request *r, cl_program *out)
 {
     brc_status status = BRC_OK;
-    char *source = NULL, *key = NULL, options[256];
+    char *source = NULL, *key = NULL, options[512];
+    const char *const more = getenv("BRECCIA_OPENCL_OPTIONS"); /* to tune for a new device */
     const double start = brc_clock_s();
     *out = NULL;
     snprintf(options, sizeof options,
              "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D "
-             "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s%s",
+             "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s%s%s%.128s",
              (int)device->precision, device->lanes, device->slice, (int)r->group, (int)device->many_materials,
-             device->exact ? exact_options(device, r->id) : "", verbose_option(device, r->id));
+             device->exact ? exact_options(device, r->id) : "", verbose_option(device, r->id),
+             more && more[0] ? " " : "", more ? more : "");
     BRC_TRY_OR(cleanup, brc_program_source(device->context, r->folder, r->part, &source));
     BRC_TRY_OR(cleanup, make_key(device, r->id, options, source, &key));
     if (is_kept(device)) *out = kept_program(device, r->context, r->id, options, key);

@@ -67,6 +67,18 @@ LAW lane_int members_neighbour(members m, OWN(int) neighbour, int slot)
     return (has & LANE_MAKE(lane_int, NEXT)) | (~has & m.own);
 #undef NEXT
 }
+/* The same from one slot to the next: a GPU asks for the next slot's before it waits for what this one's have. */
+LAW lane_int members_first_neighbour(members m, OWN(int) neighbour)
+{
+    return SPLIT_LOOPS && m.begin < m.end ? members_neighbour(m, neighbour, m.begin) : m.own;
+}
+LAW lane_int members_next_neighbour(members m, OWN(int) neighbour, int slot, lane_int *next)
+{
+    if (!SPLIT_LOOPS) return members_neighbour(m, neighbour, slot);
+    const lane_int now = *next;
+    *next = members_neighbour(m, neighbour, slot + 1 < m.end ? slot + 1 : slot);
+    return now;
+}
 LAW lane members_row1(members m, OWN(coeff) p, int slot)
 {
     return m.listed ? gather_component(p, members_entry(m, slot, 1))

@@ -148,9 +148,96 @@ LAW void lane_store_two(coeff *restrict q, brc_size n, lane a, lane b)
 }
 #endif
 
+/* One lane: a record in loads of 16 bytes, as many as reach it from the 16 bytes in which it begins; a GPU takes as
+ * long for a load of each work-item's own, whatever its width. Up to LANE_SPARE numbers behind the last record are
+ * read. */
+#if defined(__OPENCL_VERSION__) && W == 1
+#define WIDE_RECORDS 1
+typedef BRC_JOIN(STATE_NAME, 2) state_pair;
+typedef BRC_JOIN(STATE_NAME, 4) state_four;
+typedef BRC_JOIN(COEFF_NAME, 4) coeff_four;
+#if BRC_PRECISION == 2
+LAW state_vec3 state_wide3(GLOBAL const state *restrict p, int row)
+{
+    const brc_size at = (brc_size)row * 3;
+    return (state_vec3){p[at], p[at + 1], p[at + 2]};
+}
+LAW lane_quat state_wide4(GLOBAL const state *restrict p, int row)
+{
+    const state_four a = ((GLOBAL const state_four *)p)[row];
+    return (lane_quat){a.x, a.y, a.z, a.w};
+}
+#else
+LAW state_vec3 state_wide3(GLOBAL const state *restrict p, int row)
+{
+    const int odd = row & 1;
+    GLOBAL const state_pair *const q = (GLOBAL const state_pair *)(p + ((brc_size)row * 3 - (brc_size)odd));
+    const state_pair a = q[0], b = q[1];
+    return (state_vec3){odd ? a.y : a.x, odd ? b.x : a.y, odd ? b.y : b.x};
+}
+LAW lane_quat state_wide4(GLOBAL const state *restrict p, int row)
+{
+    GLOBAL const state_pair *const q = (GLOBAL const state_pair *)p + (brc_size)row * 2;
+    const state_pair a = q[0], b = q[1];
+    return (lane_quat){LANE_FROM_STATE(a.x), LANE_FROM_STATE(a.y), LANE_FROM_STATE(b.x), LANE_FROM_STATE(b.y)};
+}
+#endif
+#if BRC_PRECISION == 0
+LAW lane_mat3 lane_wide9_of(state_pair a, state_pair b, state_pair c, state_pair d, state_pair e, int odd)
+{
+    return (lane_mat3){odd ? a.y : a.x, odd ? b.x : a.y, odd ? b.y : b.x, odd ? c.x : b.y, odd ? c.y : c.x,
+                       odd ? d.x : c.y, odd ? d.y : d.x, odd ? e.x : d.y, odd ? e.y : e.x};
+}
+#define LANE_WIDE9(kind, p, row)                                                                                       \
+    kind *const q = (kind *)((p) + ((brc_size)(row)*9 - (brc_size)((row)&1)));                                         \
+    return lane_wide9_of(q[0], q[1], q[2], q[3], q[4], (row)&1)
+LAW lane_mat3 lane_wide9(GLOBAL const coeff *restrict p, int row) { LANE_WIDE9(GLOBAL const state_pair, p, row); }
+LAW lane_mat3 lane_wide9_again(GLOBAL const coeff *restrict p, int row)
+{
+    LANE_WIDE9(GLOBAL const volatile state_pair, p, row);
+}
+LAW lane_sym3 lane_wide6(GLOBAL const coeff *restrict p, int row)
+{
+    GLOBAL const state_pair *const q = (GLOBAL const state_pair *)p + (brc_size)row * 3;
+    const state_pair a = q[0], b = q[1], c = q[2];
+    return (lane_sym3){a.x, a.y, b.x, b.y, c.x, c.y};
+}
+#else
+LAW lane_mat3 lane_wide9_of(coeff_four a, coeff_four b, coeff_four c, int row)
+{
+    const int one = row & 1, two = row & 2; /* 9 row = row modulo 4 */
+    const coeff t0 = one ? a.y : a.x, t1 = one ? a.z : a.y, t2 = one ? a.w : a.z, t3 = one ? b.x : a.w,
+                t4 = one ? b.y : b.x, t5 = one ? b.z : b.y, t6 = one ? b.w : b.z, t7 = one ? c.x : b.w,
+                t8 = one ? c.y : c.x, t9 = one ? c.z : c.y, t10 = one ? c.w : c.z;
+    return (lane_mat3){two ? t2 : t0, two ? t3 : t1, two ? t4 : t2, two ? t5 : t3, two ? t6 : t4,
+                       two ? t7 : t5, two ? t8 : t6, two ? t9 : t7, two ? t10 : t8};
+}
+#define LANE_WIDE9(kind, p, row)                                                                                       \
+    kind *const q = (kind *)((p) + ((brc_size)(row)*9 - (brc_size)((row)&3)));                                         \
+    return lane_wide9_of(q[0], q[1], q[2], row)
+LAW lane_mat3 lane_wide9(GLOBAL const coeff *restrict p, int row) { LANE_WIDE9(GLOBAL const coeff_four, p, row); }
+LAW lane_mat3 lane_wide9_again(GLOBAL const coeff *restrict p, int row)
+{
+    LANE_WIDE9(GLOBAL const volatile coeff_four, p, row);
+}
+LAW lane_sym3 lane_wide6(GLOBAL const coeff *restrict p, int row)
+{
+    const int odd = row & 1;
+    GLOBAL const coeff_four *const q = (GLOBAL const coeff_four *)(p + ((brc_size)row * 6 - (brc_size)(2 * odd)));
+    const coeff_four a = q[0], b = q[1];
+    return (lane_sym3){odd ? a.z : a.x, odd ? a.w : a.y, odd ? b.x : a.z,
+                       odd ? b.y : a.w, odd ? b.z : b.x, odd ? b.w : b.y};
+}
+#endif
+#else
+#define WIDE_RECORDS 0
+#endif
+
 LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
 {
-#if STATE_SHUFFLES == 8
+#if WIDE_RECORDS
+    return state_wide3(p, row);
+#elif STATE_SHUFFLES == 8
     const state_columns c = state_gather_columns(p, row, 3);
     return (state_vec3){c.c0, c.c1, c.c2};
 #elif STATE_SHUFFLES == 4
@@ -163,6 +250,9 @@ LAW state_vec3 state_gather3(GLOBAL const state *restrict p, lane_int row)
 }
 LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
 {
+#if WIDE_RECORDS
+    return lane_wide9(p, row);
+#else
     const lane last = gather_number(p, row, 9, 8);
 #if LANE_SHUFFLES == 8
     const lane_columns c = lane_gather_columns(p, row, 9);
@@ -176,10 +266,13 @@ LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
                        gather_number(p, row, 9, 3), gather_number(p, row, 9, 4), gather_number(p, row, 9, 5),
                        gather_number(p, row, 9, 6), gather_number(p, row, 9, 7), last};
 #endif
+#endif
 }
 LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
 {
-#if LANE_SHUFFLES == 8
+#if WIDE_RECORDS
+    return lane_wide6(p, row);
+#elif LANE_SHUFFLES == 8
     const lane_columns c = lane_gather_columns(p, row, 6);
     return (lane_sym3){c.c0, c.c1, c.c2, c.c3, c.c4, c.c5};
 #elif LANE_SHUFFLES == 4
@@ -193,7 +286,9 @@ LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
 }
 LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
 {
-#if STATE_SHUFFLES == 8
+#if WIDE_RECORDS
+    return state_wide4(p, row);
+#elif STATE_SHUFFLES == 8
     const state_columns c = state_gather_columns(p, row, 4);
     return (lane_quat){LANE_FROM_STATE(c.c0), LANE_FROM_STATE(c.c1), LANE_FROM_STATE(c.c2), LANE_FROM_STATE(c.c3)};
 #elif STATE_SHUFFLES == 4
@@ -207,11 +302,7 @@ LAW lane_quat lane_gather4(GLOBAL const state *restrict p, lane_int row)
 }
 /* A record that was read before, not kept from then: the compiler may not know that it is the same. */
 #if SPLIT_LOOPS
-LAW lane_mat3 lane_gather9_again(GLOBAL const coeff *restrict p, lane_int row)
-{
-    GLOBAL const volatile coeff *const r = (GLOBAL const volatile coeff *)(p + (brc_size)row * 9);
-    return (lane_mat3){r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]};
-}
+#define lane_gather9_again(p, row) lane_wide9_again(p, row)
 LAW lane_sym3 lane_gather6_again(GLOBAL const coeff *restrict p, lane_int row)
 {
     GLOBAL const volatile coeff *const r = (GLOBAL const volatile coeff *)(p + (brc_size)row * 6);

@@ -46,21 +46,38 @@ typedef struct {
     lane_vec3 branch; /* x_j - x_i now [m] */
 } cbm_bond;
 
+/* What the rows of a slot say of the beams in it: neighbour, branch [m], one over its length [1/m]. */
+typedef struct {
+    lane_int j;
+    lane_vec3 branch;
+    lane inverse;
+} cbm_row;
+LAW cbm_row cbm_row_at(int slot, int lane0, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length)
+{
+    rows_ahead3(branch, slot);
+    rows_ahead1(inv_length, slot);
+    return (cbm_row){int_block(neighbour, slot, lane0), lane_block3(branch, slot, lane0),
+                     lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0)};
+}
+
 /* The beams of a slot. Only called with a constant `finite`. */
+LAW cbm_bond cbm_bond_of(cbm_row row, cbm_own own, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                         coeff bend, coeff twist, GATHER(coeff) beam_of, int finite)
+{
+    const lane_int j = row.j;
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
+    const cbm_stiffness k = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
+    const cbm_shape shape = cbm_beam_shape_turned(row.branch, row.inverse, jump, own.orientation, own.turn,
+                                                  lane_gather4(orientation, j), finite);
+    return (cbm_bond){shape, row.inverse, k, lane_vec3_add(row.branch, jump)};
+}
+
 LAW cbm_bond cbm_bond_at(int slot, int lane0, cbm_own own, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
                          GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
                          GATHER(coeff) beam_of, int finite)
 {
-    const lane_int j = int_block(neighbour, slot, lane0);
-    rows_ahead3(branch, slot);
-    rows_ahead1(inv_length, slot);
-    const lane_vec3 r = lane_block3(branch, slot, lane0);
-    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
-    const lane inverse = lane_load(inv_length, (brc_size)slot * C + (brc_size)lane0);
-    const cbm_stiffness k = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
-    const cbm_shape shape =
-        cbm_beam_shape_turned(r, inverse, jump, own.orientation, own.turn, lane_gather4(orientation, j), finite);
-    return (cbm_bond){shape, inverse, k, lane_vec3_add(r, jump)};
+    return cbm_bond_of(cbm_row_at(slot, lane0, neighbour, branch, inv_length), own, displacement, orientation, axial,
+                       bend, twist, beam_of, finite);
 }
 
 /* Sums over the beams of a group; only called with a constant `finite`. */
@@ -71,9 +88,13 @@ LAW cbm_end cbm_group_force(int group, OWN(int) row_start, OWN(int) neighbour, O
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
     const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
     cbm_end sum = {{LANE_ZERO, LANE_ZERO, LANE_ZERO}, {LANE_ZERO, LANE_ZERO, LANE_ZERO}};
+    cbm_row next = {own.row, {LANE_ZERO, LANE_ZERO, LANE_ZERO}, LANE_ZERO}; /* as dlsm_next_row */
+    if (SPLIT_LOOPS && row_start[slice] < last)
+        next = cbm_row_at(row_start[slice], lane0, neighbour, branch, inv_length);
     for (int slot = row_start[slice]; slot < last; ++slot) {
-        const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement, orientation,
-                                          axial, bend, twist, beam_of, finite);
+        const cbm_row row = SPLIT_LOOPS ? next : cbm_row_at(slot, lane0, neighbour, branch, inv_length);
+        if (SPLIT_LOOPS) next = cbm_row_at(slot + 1 < last ? slot + 1 : slot, lane0, neighbour, branch, inv_length);
+        const cbm_bond bond = cbm_bond_of(row, own, displacement, orientation, axial, bend, twist, beam_of, finite);
         const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, finite);
         sum.force = lane_vec3_add(sum.force, end.force);
         sum.torque = lane_vec3_add(sum.torque, end.torque);

@@ -3,6 +3,40 @@
  * group of all, or in the kernels named `listed` those of a list (members.cl). boundary[slice]: the slice's block of
  * the face-load arrays, -1 when none of its elements has a free face; only read in scenes with face loads. */
 
+/* What the rows of a slot say of the bonds in it: neighbour, area s [m^2], offset d [m], ratio q = L/S [1/m]; the last
+ * two where a pass reads them (with). */
+typedef struct {
+    lane_int j;
+    lane_vec3 area, offset;
+    lane ratio;
+} dlsm_row;
+enum { DLSM_OFFSET = 1, DLSM_RATIO = 2 };
+LAW dlsm_row dlsm_row_at(members who, int slot, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) more, int with)
+{
+    dlsm_row row = {members_neighbour(who, neighbour, slot),
+                    members_face3(who, area, slot),
+                    {LANE_ZERO, LANE_ZERO, LANE_ZERO},
+                    LANE_ZERO};
+    members_ahead3(who, area, slot);
+    if (with == DLSM_OFFSET) members_ahead3(who, more, slot), row.offset = members_row3(who, more, slot);
+    if (with == DLSM_RATIO) members_ahead1(who, more, slot), row.ratio = members_row1(who, more, slot);
+    return row;
+}
+/* A GPU asks for the rows of the next slot before it waits for what this one gathers. */
+LAW dlsm_row dlsm_first_row(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) more, int with)
+{
+    if (SPLIT_LOOPS && who.begin < who.end) return dlsm_row_at(who, who.begin, neighbour, area, more, with);
+    return (dlsm_row){who.own, {LANE_ZERO, LANE_ZERO, LANE_ZERO}, {LANE_ZERO, LANE_ZERO, LANE_ZERO}, LANE_ZERO};
+}
+LAW dlsm_row dlsm_next_row(members who, int slot, dlsm_row *ahead, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) more,
+                           int with)
+{
+    if (!SPLIT_LOOPS) return dlsm_row_at(who, slot, neighbour, area, more, with);
+    const dlsm_row row = *ahead;
+    *ahead = dlsm_row_at(who, slot + 1 < who.end ? slot + 1 : slot, neighbour, area, more, with);
+    return row;
+}
+
 /* G = F - I [-], from H and, where faces are held, from their part [boundary block][9][C] of V G. */
 LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
                                   GATHER(coeff) gradient, OWN(coeff) inv_volume, OWN(int) boundary,
@@ -10,12 +44,10 @@ LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) ar
 {
     const lane_mat3 h = lane_gather9(gradient, who.own);
     lane_mat3 sum = lane_mat3_zero();
+    dlsm_row next = dlsm_first_row(who, neighbour, area, offset, DLSM_OFFSET);
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_int j = members_neighbour(who, neighbour, slot);
-        members_ahead3(who, area, slot);
-        members_ahead3(who, offset, slot);
-        sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, j), h), members_row3(who, offset, slot),
-                              members_face3(who, area, slot));
+        const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, offset, DLSM_OFFSET);
+        sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, row.j), h), row.offset, row.area);
     }
     const lane inv_v = members_number(who, inv_volume);
     const lane_mat3 g = dlsm_divergence_gradient(h, sum, inv_v);
@@ -31,19 +63,15 @@ LAW lane_mat3 dlsm_first_piola(lane_mat3 g, lane lambda, lane mu, int finite)
 enum { ASIDE_M = 0, ASIDE_OWN = 9, ASIDE_FLUX = 18 };
 
 /* What the bond in one slot adds in pass 3: to the sums of gradients ... */
-LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, aside room, int slot, dlsm_flux_sums sums, OWN(int) neighbour,
-                                          OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
+LAW dlsm_flux_sums dlsm_flux_gradients_at(aside room, dlsm_row row, dlsm_flux_sums sums, GATHER(state) displacement,
                                           GATHER(coeff) gradient, GATHER(coeff) modulus, GATHER(coeff) ell_of,
                                           state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite,
                                           int plain)
 {
-    const lane_int j = members_neighbour(who, neighbour, slot);
-    members_ahead3(who, area, slot);
-    members_ahead1(who, ratio, slot);
-    const lane_vec3 s = members_face3(who, area, slot);
-    const lane q = members_row1(who, ratio, slot);
+    const lane_int j = row.j;
+    const lane_vec3 s = row.area;
     const lane_mat3 h_j = lane_gather9(gradient, j);
-    const lane_vec3 x = lane_vec3_scale(REAL(0.5) * q, s); /* R / 2 [m] */
+    const lane_vec3 x = lane_vec3_scale(REAL(0.5) * row.ratio, s); /* R / 2 [m] */
     const lane_vec3 h_x = lane_mat3_mul_vec(h, x), h_j_x = lane_mat3_mul_vec(h_j, x),
                     m_x = lane_mat3_mul_vec(aside_get9(room, ASIDE_M, m), x);
 #if BRC_MANY_MATERIALS
@@ -61,13 +89,10 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(members who, aside room, int slot, dls
     return dlsm_flux_add_bond(sums, r, mr, s);
 }
 /* ... and to that of stresses. */
-LAW dlsm_flux_sums dlsm_flux_stress_at(members who, int slot, dlsm_flux_sums sums, OWN(int) neighbour, OWN(coeff) area,
-                                       OWN(coeff) offset, GATHER(coeff) stress, lane_mat3 p)
+LAW dlsm_flux_sums dlsm_flux_stress_at(dlsm_flux_sums sums, lane_int j, lane_vec3 area, lane_vec3 offset,
+                                       GATHER(coeff) stress, lane_mat3 p)
 {
-    const lane_int j = members_neighbour(who, neighbour, slot);
-    members_ahead3(who, offset, slot);
-    return dlsm_flux_add_stress(sums, lane_mat3_add(p, lane_gather9(stress, j)), members_face3(who, area, slot),
-                                members_row3(who, offset, slot));
+    return dlsm_flux_add_stress(sums, lane_mat3_add(p, lane_gather9(stress, j)), area, offset);
 }
 
 /* Bonds of pass 3: those of gradients, and those of stresses in the same loop where rows are read once (SPLIT_LOOPS).
@@ -79,10 +104,15 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, aside room, OWN(int) neighbour
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
+    dlsm_row next = dlsm_first_row(who, neighbour, area, ratio, DLSM_RATIO);
     for (int slot = who.begin; slot < who.end; ++slot) {
-        sums = dlsm_flux_gradients_at(who, room, slot, sums, neighbour, area, ratio, displacement, gradient, modulus,
-                                      ell_of, u, h, m, k, ell_one, finite, plain);
-        if (!SPLIT_LOOPS) sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
+        const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, ratio, DLSM_RATIO);
+        sums = dlsm_flux_gradients_at(room, row, sums, displacement, gradient, modulus, ell_of, u, h, m, k, ell_one,
+                                      finite, plain);
+        if (!SPLIT_LOOPS) {
+            members_ahead3(who, offset, slot);
+            sums = dlsm_flux_stress_at(sums, row.j, row.area, members_row3(who, offset, slot), stress, p);
+        }
     }
     return sums;
 }
@@ -93,8 +123,11 @@ LAW lane_mat3 dlsm_flux_own_of(members who, OWN(int) neighbour, OWN(coeff) area,
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const lane_mat3 p = lane_gather9(stress, who.own);
-    for (int slot = who.begin; slot < who.end; ++slot)
-        sums = dlsm_flux_stress_at(who, slot, sums, neighbour, area, offset, stress, p);
+    dlsm_row next = dlsm_first_row(who, neighbour, area, offset, DLSM_OFFSET);
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, offset, DLSM_OFFSET);
+        sums = dlsm_flux_stress_at(sums, row.j, row.area, row.offset, stress, p);
+    }
     return dlsm_flux_own(p, REAL(1) / members_number(who, inv_volume), sums.q);
 }
 
@@ -187,16 +220,11 @@ LAW dlsm_end dlsm_end_of(members who, OWN(state) displacement, OWN(coeff) flux, 
     return (dlsm_end){u, b, b, LANE_ZERO, LANE_ZERO + k_one * one_plus_tau};
 #endif
 }
-LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
-                           GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff one_plus_tau,
-                           GATHER(coeff) modulus)
+LAW dlsm_pull dlsm_pull_at(dlsm_row row, dlsm_end own, GATHER(state) displacement, GATHER(coeff) flux,
+                           GATHER(coeff) bond_part, coeff one_plus_tau, GATHER(coeff) modulus)
 {
-    const lane_int j = members_neighbour(who, neighbour, slot);
-    members_ahead3(who, area, slot);
-    members_ahead1(who, ratio, slot);
-    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.u),
-                    s = members_face3(who, area, slot);
-    const lane q = members_row1(who, ratio, slot);
+    const lane_int j = row.j;
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.u);
     lane_mat3 sum = lane_mat3_add(own.b, lane_gather9(flux, j));
 #if BRC_MANY_MATERIALS
     const lane spring = lane_min(gather_component(modulus, j), own.k) * one_plus_tau;
@@ -204,7 +232,7 @@ LAW dlsm_pull dlsm_pull_at(members who, int slot, dlsm_end own, OWN(int) neighbo
 #else
     const lane spring = own.spring;
 #endif
-    return (dlsm_pull){dlsm_bond_force(sum, s, spring, q, jump), jump, s, q};
+    return (dlsm_pull){dlsm_bond_force(sum, row.area, spring, row.ratio, jump), jump, row.area, row.ratio};
 }
 
 /* V psi [J] of the elements: of G, ... */

@@ -9,11 +9,10 @@ KERNEL void PASS(dlsm_gradient)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbo
         members_states_later(who, displacement, 3, ahead);
         const state_vec3 u = state_gather3(displacement, who.own);
         lane_mat3 a = lane_mat3_zero();
+        dlsm_row next = dlsm_first_row(who, neighbour, area, area, 0);
         for (int slot = who.begin; slot < who.end; ++slot) {
-            const lane_int j = members_neighbour(who, neighbour, slot);
-            members_ahead3(who, area, slot);
-            a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, j), u),
-                              members_face3(who, area, slot));
+            const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, area, 0);
+            a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, row.j), u), row.area);
         }
         members_store9(who, gradient, lane_mat3_mul_sym(a, members_block6(who, inv_shape)));
     }
@@ -65,9 +64,10 @@ KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour,
         members_states_later(who, displacement, 3, ahead), members_later(who, flux, 9, ahead);
         const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+        dlsm_row next = dlsm_first_row(who, neighbour, area, ratio, DLSM_RATIO);
         for (int slot = who.begin; slot < who.end; ++slot) {
-            const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part,
-                                             one_plus_tau, modulus);
+            const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, ratio, DLSM_RATIO);
+            const dlsm_pull b = dlsm_pull_at(row, own, displacement, flux, bond_part, one_plus_tau, modulus);
             f = lane_vec3_add(f, b.force);
         }
         members_store3(who, force, f);
@@ -91,9 +91,10 @@ KERNEL void PASS(cells_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour
         members_records_ahead9(who, stress);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         lane least = LANE_ZERO + CELLS_NEVER;
+        dlsm_row next = dlsm_first_row(who, neighbour, area, ratio, DLSM_RATIO);
         for (int slot = who.begin; slot < who.end; ++slot) {
-            const dlsm_pull b = dlsm_pull_at(who, slot, own, neighbour, area, ratio, displacement, flux, bond_part,
-                                             one_plus_tau, modulus);
+            const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, ratio, DLSM_RATIO);
+            const dlsm_pull b = dlsm_pull_at(row, own, displacement, flux, bond_part, one_plus_tau, modulus);
             members_ahead1(who, limit, slot);
             f = lane_vec3_add(f, b.force);
             least = lane_min(least,

@@ -114,8 +114,8 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
         for (int slot = who.begin; which.looking && slot < who.end; ++slot) {
             const lane_int j = members_neighbour(who, neighbour, slot);
             members_ahead1(who, limit, slot);
-            const dlsm_pull pull = dlsm_pull_at(who, slot, end, neighbour, area, ratio, displacement, flux, bond_part,
-                                                one_plus_tau, modulus);
+            const dlsm_pull pull = dlsm_pull_at(dlsm_row_at(who, slot, neighbour, area, ratio, DLSM_RATIO), end,
+                                                displacement, flux, bond_part, one_plus_tau, modulus);
             const lane_mat3 beside = lane_gather9(gradient, j);
             const soft_bounds below = {share * members_row1(who, limit, slot),
                                        shears ? share * soft_half_of(members_row1(who, shear_limit, slot)) : LANE_ZERO,

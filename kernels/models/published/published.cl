@@ -7,8 +7,9 @@ LAW lane_mat3 published_fit(members who, OWN(int) neighbour, OWN(coeff) branch, 
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
+    lane_int next = members_first_neighbour(who, neighbour);
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_int j = members_neighbour(who, neighbour, slot);
+        const lane_int j = members_next_neighbour(who, neighbour, slot, &next);
         members_ahead3(who, branch, slot);
         lane_vec3 r = members_row3(who, branch, slot);
         const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
@@ -83,12 +84,11 @@ LAW published_own published_own_of(lane_int own, OWN(state) displacement, OWN(st
 }
 
 /* The bonds in one slot of the rows. */
-LAW published_bond published_bond_at(members who, int slot, published_own own, OWN(int) neighbour, OWN(coeff) branch,
+LAW published_bond published_bond_at(members who, int slot, lane_int j, published_own own, OWN(coeff) branch,
                                      OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
                                      GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
                                      coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, int finite)
 {
-    const lane_int j = members_neighbour(who, neighbour, slot);
     members_ahead3(who, branch, slot);
     members_ahead1(who, area, slot);
     const lane_vec3 r = members_row3(who, branch, slot);

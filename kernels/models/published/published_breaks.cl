@@ -20,9 +20,9 @@ KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(i
             const published_own own = published_own_of(who.own, displacement, orientation, strain);
             for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
-                const published_bond b =
-                    published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain,
-                                      lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, 1);
+                const published_bond b = published_bond_at(who, slot, members_neighbour(who, neighbour, slot), own,
+                                                           branch, area, displacement, orientation, strain, lambda_one,
+                                                           mu_one, young_one, rotation_factor, couple, lame_of, 1);
                 const lane bound = share * lane_load(limit, entry);
 #define MARK(l)                                                                                                        \
     if (LANE_ITEM(b.stress, l) > LANE_ITEM(bound, l)) {                                                                \

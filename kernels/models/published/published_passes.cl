@@ -34,9 +34,10 @@ KERNEL void PASS(published_force_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) 
         const published_own own = published_own_of(who.own, displacement, orientation, strain);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         for (int slot = who.begin; slot < who.end; ++slot) {
+            const lane_int j = members_neighbour(who, neighbour, slot);
             const published_bond b =
-                published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain,
-                                  lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, finite);
+                published_bond_at(who, slot, j, own, branch, area, displacement, orientation, strain, lambda_one,
+                                  mu_one, young_one, rotation_factor, couple, lame_of, finite);
             f = lane_vec3_add(f, b.force);
             t = lane_vec3_add(t, b.torque);
         }
@@ -62,10 +63,12 @@ KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(i
         const published_own own = published_own_of(who.own, displacement, orientation, strain);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         lane largest = LANE_ZERO;
+        lane_int next = members_first_neighbour(who, neighbour);
         for (int slot = who.begin; slot < who.end; ++slot) {
+            const lane_int j = members_next_neighbour(who, neighbour, slot, &next);
             const published_bond b =
-                published_bond_at(who, slot, own, neighbour, branch, area, displacement, orientation, strain,
-                                  lambda_one, mu_one, young_one, rotation_factor, couple, lame_of, 1);
+                published_bond_at(who, slot, j, own, branch, area, displacement, orientation, strain, lambda_one,
+                                  mu_one, young_one, rotation_factor, couple, lame_of, 1);
             f = lane_vec3_add(f, b.force);
             t = lane_vec3_add(t, b.torque);
             const lane ratio = b.stress / members_row1(who, limit, slot);
