@@ -53,15 +53,16 @@ def shared(files):
 
 
 def kernels(files):
-    """Names of kernels of models and effects, in quotes, stand in the module alone."""
+    """Names of kernels of models, in quotes, stand in the model alone; core/, run/ and utilities/ name none of an effect either."""
     names = {}
     for path, text in files.items():
         module = re.match(r"kernels/(models/\w+|effects/\w+)", path)
         if module and path.endswith(".cl"):
             for name in re.findall(r"KERNEL void\s+(?:PASS\()?(\w+)", text):
                 names[name] = module.group(1)
-    return [f"{path}: names the kernel {name} of {names[name]}" for path, text in files.items() if path.startswith(BELOW)
-            for name in re.findall(r'"(\w+)"', text) if name in names]
+    return [f"{path}: names the kernel {name} of {names[name]}" for path, text in files.items() if path.startswith(SOLVER)
+            for name in re.findall(r'"(\w+)"', text) if name in names and not path.startswith(SOLVER + names[name] + "/")
+            and (path.startswith(BELOW) or names[name].startswith("models/"))]
 
 
 solver = repository.read(r"^(host|preprocess|tests/solver)/.*\.(c|h|cc)$")
@@ -75,5 +76,7 @@ repository.finish([
     repository.report("below", below, sources, {"an effect": {SOLVER + "run/a.c": '#include "../effects/guard.h"\n'},
                                                 "a model": {SOLVER + "core/a.c": '#include "../models/cbm/cbm_internal.h"\n'}}),
     repository.report("above", above, sources, {"run": {SOLVER + "effects/contact/a.c": '#include "../../run/look.h"\n'}}),
-    repository.report("kernels", kernels, sources, {"one": {"kernels/effects/gravity.cl": "KERNEL void gravity(int n)\n{\n}\n",
-                                                            SOLVER + "run/a.c": 'BRC_PASS(p, "gravity", NULL);\n'}})])
+    repository.report("kernels", kernels, sources, {
+        "an effect": {"kernels/effects/gravity.cl": "KERNEL void gravity(int n)\n{\n}\n", SOLVER + "run/a.c": 'BRC_PASS(p, "gravity", NULL);\n'},
+        "a model": {"kernels/models/cbm/cbm.cl": "KERNEL void cbm_force(int n)\n{\n}\n",
+                    SOLVER + "effects/a.c": 'BRC_PASS(p, "cbm_force", NULL);\n'}})])

@@ -6,11 +6,11 @@
  * from it. I - c M^-1 S contracts while c w^2 < 2 for all frequencies w of S, which are below the critical frequency of
  * the body (0.15 to 0.78 of it: test_noise_damping): so c may be up to this share of 1 / w_c^2. */
 static const double LARGEST_SHARE = 1;
-enum { MOST_STEPS = 32 };
+enum { MOST_STEPS = 32, MOST_PASSES = 4 };
 
 /* One simulation has at most one. */
 struct brc_noise {
-    brc_pass *gradient_pass, *flux_pass, *force_pass, *damp;
+    brc_pass *of_model[MOST_PASSES], *damp;
     brc_buffer *gradient, *no_stress, *flux, *bond_part,
         *force;     /* of velocities: [n][9] 1/s, zeros, [n][9], [n][9], [n][3] */
     int64_t every;  /* 0: not in this stage */
@@ -67,10 +67,9 @@ static brc_status make_passes(brc_simulation *s, struct brc_noise *d)
                     velocities = brc_scope_of_velocities(s, &damping);
     const brc_scope noise = {
         .owner = "noise damping", .base = d, .tables = {&brc_noise_fields}, BRC_VALUES(values), .outer = &velocities};
-    const brc_pass_wanted wanted[] = {
-        BRC_PASS(&d->gradient_pass, "dlsm_gradient", NULL), BRC_PASS(&d->flux_pass, "dlsm_flux_linear", NULL),
-        BRC_PASS(&d->force_pass, "dlsm_force", NULL), BRC_PASS(&d->damp, "damp_noise", NULL)};
-    return BRC_PASSES_MAKE(s, &noise, wanted);
+    for (int k = 0; s->model->smoothing[k]; ++k)
+        BRC_TRY(BRC_PASSES(s, &noise, BRC_PASS(&d->of_model[k], s->model->smoothing[k], NULL)));
+    return BRC_PASSES(s, &noise, BRC_PASS(&d->damp, "damp_noise", NULL));
 }
 
 static brc_status create(brc_simulation *s)
@@ -113,9 +112,8 @@ brc_status brc_noise_damp(brc_simulation *s)
 {
     struct brc_noise *d = s->noise;
     const int32_t n = s->layout->n_rows;
-    BRC_TRY(brc_pass_run(d->gradient_pass, s->n_groups));
-    BRC_TRY(brc_pass_run(d->flux_pass, s->n_groups));
-    BRC_TRY(brc_pass_run(d->force_pass, s->n_groups));
+    for (int k = 0; d->of_model[k]; ++k)
+        BRC_TRY(brc_pass_run(d->of_model[k], s->n_groups));
     BRC_TRY(brc_constrain(s, d->force, NULL));
     return brc_pass_run(d->damp, n);
 }
