@@ -1,4 +1,3 @@
-#include "rings.h"
 #include "core_internal.h"
 #include "../../device/shares.h"
 
@@ -42,6 +41,35 @@ static const brc_field_row list_rows[BRC_RING_KINDS] = {
 BRC_FIELD_TABLE(brc_ring_list_fields, "rings around breaks", BRC_LIFE_RUN, of_cells, list_rows);
 BRC_FIELD_TABLE(brc_open_list_fields, "rings around open faces", BRC_LIFE_RUN, softening_cells, list_rows);
 BRC_FIELD_TABLE(brc_bonded_list_fields, "cells with bonds", BRC_LIFE_GROWS, of_cells, list_rows);
+
+const brc_ring_list *brc_rings_around(const brc_rings *r)
+{
+    return &r->around;
+}
+const brc_ring_list *brc_request_list(const brc_force_request *request)
+{
+    return request->rings && !request->rings->whole_force ? &request->rings->around : NULL;
+}
+bool brc_rings_are_whole(const brc_rings *r)
+{
+    return r->whole_force;
+}
+void brc_rings_make_whole(brc_rings *r)
+{
+    r->whole_force = true;
+}
+bool brc_rings_are_placed(const brc_rings *r)
+{
+    return r->placed;
+}
+brc_buffer *brc_rings_touched(const brc_rings *r)
+{
+    return r->touched;
+}
+brc_buffer *brc_rings_level(const brc_rings *r)
+{
+    return r->level;
+}
 
 brc_scope brc_scope_of_rings(const brc_rings *rings, const brc_scope *outer)
 {
@@ -153,19 +181,19 @@ brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last
 brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_rings_closing how, brc_ring_list *out)
 {
     r->placed = how == BRC_RINGS_PLACE;
-    return make_list(s, r, r->placed ? PLACED : how == BRC_RINGS_KEEP ? KEPT : ALL, out);
+    return make_list(s, r, r->placed ? PLACED : how == BRC_RINGS_KEEP ? KEPT : ALL, out ? out : &r->around);
 }
 
-brc_status brc_rings_forget(brc_rings *r, const brc_ring_list *list)
+brc_status brc_rings_forget(brc_rings *r)
 {
     if (!r->placed) return BRC_OK;
     r->placed = false;
-    return BRC_RUN(r->forget, list->n[3], {"list", BRC_BUF(list->upto[3])});
+    return BRC_RUN(r->forget, r->around.n[3], {"list", BRC_BUF(r->around.upto[3])});
 }
 
-brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out)
+brc_status brc_rings_list_touched(brc_simulation *s, brc_rings *r)
 {
-    return make_list(s, r, TOUCHED, out);
+    return make_list(s, r, TOUCHED, &r->around);
 }
 
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *r, brc_buffer *number)
@@ -226,17 +254,23 @@ brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int inner, i
     return BRC_RUN(r->replace_turns, n, {"list", BRC_BUF(r->around.upto[inner])});
 }
 
-brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *r)
+brc_status brc_rings_begin(brc_simulation *s, brc_rings *r, double half_kick)
 {
+    r->half_kick = half_kick;
+    if (!r->whole_force) return BRC_OK;
+    BRC_TRY(brc_elements_kick(s, half_kick));
     return books_jumps(s, r) ? brc_buffer_copy(r->force, s->core->force, brc_buffer_bytes(s->core->force)) : BRC_OK;
 }
 
-brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *r)
+brc_status brc_rings_end(brc_simulation *s, const brc_rings *r)
 {
     const int32_t n = s->layout->n_rows;
-    if (!books_jumps(s, r)) return BRC_OK;
-    BRC_TRY(brc_pass_run(r->delta, n));
-    return book_jumps(s, r, n, 0, 0);
+    if (!r->whole_force) return BRC_OK;
+    if (books_jumps(s, r)) {
+        BRC_TRY(brc_pass_run(r->delta, n));
+        BRC_TRY(book_jumps(s, r, n, 0, 0));
+    }
+    return brc_elements_kick(s, -r->half_kick);
 }
 
 brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, brc_buffer *x, double *out)

@@ -225,7 +225,7 @@ static brc_status load_strikers(brc_simulation *s)
 /* Around breaks the pairs that these may have changed, in sweeps of openings those of the cells that open, else all. */
 static bool all_pairs(const brc_force_request *r)
 {
-    return !r->listed_pairs && (!r->rings || r->rings->whole_force);
+    return !r->listed_pairs && !brc_request_list(r);
 }
 
 /* The step that the evaluation ends; 0: the state is evaluated again. */
@@ -274,7 +274,7 @@ static brc_status beams_broke(brc_simulation *s, bool *out)
 static brc_buffer *touched(const brc_simulation *s)
 {
     brc_rings *rings = brc_cell_breaks_rings(s);
-    return rings ? rings->touched : s->contact->fresh;
+    return rings ? brc_rings_touched(rings) : s->contact->fresh;
 }
 
 brc_status brc_contact_expose(brc_simulation *s)

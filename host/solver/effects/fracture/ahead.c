@@ -204,7 +204,7 @@ static brc_status ahead_end(brc_simulation *s, bool *stands)
         a->broke = true;
     }
     if (c) BRC_TRY(brc_buffer_fill_zero(c->mark));
-    if (c) BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
+    if (c) BRC_TRY(brc_buffer_fill_zero(brc_rings_touched(c->rings)));
     brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: %s in them",
             (long long)brc_simulation_step(s) + 1, (long long)last, n > 0 ? "bonds break" : "surfaces come near");
     return BRC_OK;

@@ -247,7 +247,7 @@ static brc_status find_rings(brc_simulation *s)
     if (s->contact) {
         const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
         BRC_TRY(brc_contact_broken(s, 0));
-        BRC_TRY(brc_rings_touched(s, rings, &rings->around));
+        BRC_TRY(brc_rings_list_touched(s, rings));
         if (s->model->breaking->gradients_around) {
             brc_force_request request = brc_force_request_of_state(s, BRC_BOOK_NOTHING);
             request.rings = rings;
@@ -257,10 +257,9 @@ static brc_status find_rings(brc_simulation *s)
         brc_phase_within(s, phase);
     }
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
-    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    BRC_TRY(brc_contact_spread(s, brc_rings_level(rings), 1 + 2));
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
-    return brc_rings_close(s, rings, s->model->breaking->places(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP,
-                           &rings->around);
+    return brc_rings_close(s, rings, s->model->breaking->places(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, NULL);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in
@@ -279,6 +278,7 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
 {
     brc_breaking *f = s->fracture;
     brc_rings *rings = f->cells->rings;
+    const brc_ring_list *around = brc_rings_around(rings);
     double marked, before, outside_before, after, outside, weight;
     const brc_model_cohesion *o = cohesion_of(s);
     if (o->is_on && o->is_on(s))
@@ -288,31 +288,28 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     if (!(marked > 0)) return BRC_OK;
     /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left:
      * velocities gain half a kick of the one and lose half a kick of the other, in the rings where they differ. */
-    rings->half_kick = half_kick;
     BRC_TRY(outside_energy(s, &outside_before));
     BRC_TRY(kick_others(s, half_kick));
-    if (rings->whole_force) BRC_TRY(brc_elements_kick(s, half_kick));
-    if (rings->whole_force) BRC_TRY(brc_rings_keep_force(s, rings));
+    BRC_TRY(brc_rings_begin(s, rings, half_kick));
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(ask(s, o->after_breaks));
     BRC_TRY(find_rings(s));
     BRC_TRY(brc_force_around_breaks(s, rings));
-    if (o->change) BRC_TRY(o->change(s, rings->whole_force ? 0 : half_kick));
-    if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
-    if (rings->whole_force) BRC_TRY(brc_elements_kick(s, -half_kick));
+    if (o->change) BRC_TRY(o->change(s, brc_rings_are_whole(rings) ? 0 : half_kick));
+    BRC_TRY(brc_rings_end(s, rings));
     BRC_TRY(kick_others(s, -half_kick));
     BRC_TRY(s->model->breaking->energy_around(s, rings, false, &after));
     BRC_TRY(outside_energy(s, &outside));
-    BRC_TRY(brc_rings_sum(s, &rings->around, 0, f->cells->weight, &weight));
+    BRC_TRY(brc_rings_sum(s, around, 0, f->cells->weight, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
     BRC_TRY(ask(s, o->refresh));
-    const int32_t n = rings->around.n[0];
+    const int32_t n = around->n[0];
     BRC_TRY(BRC_RUN(f->cells->share, n, {"step", BRC_INT(brc_fracture_moment(s))},
                     {"per_weight", BRC_STATE((before + outside_before - after - outside) / weight)},
-                    {"list", BRC_BUF(rings->around.upto[0])}));
-    BRC_TRY(brc_rings_forget(rings, &rings->around));
-    if (o->settle) BRC_TRY(o->settle(s, &rings->around));
+                    {"list", BRC_BUF(around->upto[0])}));
+    BRC_TRY(brc_rings_forget(rings));
+    if (o->settle) BRC_TRY(o->settle(s, around));
     return brc_contact_list_bonded(s);
 }
 

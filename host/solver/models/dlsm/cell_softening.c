@@ -287,9 +287,9 @@ static brc_status list_around(brc_simulation *s)
     brc_rings *rings = brc_cell_breaks_rings(s);
     if (f->is_listed && f->lists == brc_contact_lists(s)) return BRC_OK;
     BRC_TRY(brc_rings_seed(s, rings, f->n_open));
-    BRC_TRY(brc_contact_list_around(s, rings->touched));
+    BRC_TRY(brc_contact_list_around(s, brc_rings_touched(rings)));
     BRC_TRY(brc_rings_spread(s, rings, 1, 2));
-    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    BRC_TRY(brc_contact_spread(s, brc_rings_level(rings), 1 + 2));
     f->is_listed = true;
     f->lists = brc_contact_lists(s);
     return brc_rings_close(s, rings, BRC_RINGS_DROP, &f->around);

@@ -79,14 +79,14 @@ cleanup:
 brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r)
 {
     const brc_published_own *c = brc_published_own_of(s);
-    return brc_pass_over(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? &r->rings->around : NULL, 0, r,
-                         NULL);
+    return brc_pass_over(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? brc_rings_around(r->rings) : NULL,
+                         0, r, NULL);
 }
 
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r)
 {
     const brc_published_own *c = brc_published_own_of(s);
-    const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
+    const brc_ring_list *list = brc_request_list(r);
     return brc_pass_over(s, c->breaking_force, c->breaking_force_listed, list, 2, r, NULL);
 }
 
