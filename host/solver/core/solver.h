@@ -25,8 +25,9 @@ brc_elastic brc_elastic_of(const brc_material *material);
 /* Hooke's law: stress of a strain, xx yy zz yz xz xy. */
 void brc_hooke(const brc_elastic *material, const double strain[6], double stress[6]);
 
+/* Two parts. What a run is made of is a value that every folder is handed: made by core/ and run/, which alone set it,
+ * and the same to its end. What folders keep are pointers to structs that nobody else can look into. */
 struct brc_simulation {
-    /* What a run is made of: set as it is made, read by all. */
     brc_context *context;
     const brc_scene *scene;
     const brc_bond_model *model;
@@ -38,7 +39,7 @@ struct brc_simulation {
     brc_elastic *elastic;         /* [n_materials] */
     int32_t *material_of_element; /* [n_elements] index into scene.materials */
 
-    /* What each folder keeps of its own: known to its files alone. NULL: not in this run. */
+    /* Kept by each folder; NULL: not in this run. */
     struct brc_core *core;
     struct brc_run *run;
     struct brc_statics *statics;
