@@ -36,11 +36,9 @@ static bool has_free_face(const brc_domain *domain, int32_t element)
 /* Elements in storage order. */
 static brc_status order_elements(brc_context *context, const brc_domain *domain, int32_t slice, sort_item *items)
 {
-    int32_t *order = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &order, domain->n_elements, "storage order"));
-    BRC_TRY_OR(cleanup, brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds,
-                                          omp_get_max_threads(), order));
+    BRC_LOCAL(context, domain->n_elements, int32_t, order, "storage order");
+    BRC_TRY(
+        brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds, omp_get_max_threads(), order));
     /* inside a window: elements with free faces first, then by falling degree, then along the curve */
     const int64_t window = WINDOW_SLICES * slice < WINDOW_OF_GPU ? WINDOW_SLICES * slice : WINDOW_OF_GPU;
     for (int64_t begin = 0; begin < domain->n_elements; begin += window) {
@@ -53,9 +51,7 @@ static brc_status order_elements(brc_context *context, const brc_domain *domain,
         }
         qsort(items + begin, (size_t)(end - begin), sizeof *items, compare_items);
     }
-cleanup:
-    brc_memory_free(order);
-    return status;
+    return BRC_OK;
 }
 
 brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int32_t slice, brc_layout **out)
@@ -126,13 +122,11 @@ void brc_layout_all_boundary(brc_layout *layout)
 brc_status brc_layout_twins(brc_context *context, const brc_layout *layout, const brc_domain *domain, int32_t *twin)
 {
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *entry_of = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &entry_of, domain->n_half_edges, "twins"));
+    BRC_LOCAL(context, domain->n_half_edges, int32_t, entry_of, "twins");
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0) entry_of[layout->half_edge[k]] = (int32_t)k;
     for (int64_t k = 0; k < n; ++k)
         twin[k] = layout->half_edge[k] >= 0 ? entry_of[domain->twin[layout->half_edge[k]]] : 0;
-    brc_memory_free(entry_of);
     return BRC_OK;
 }
 

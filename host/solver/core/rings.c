@@ -139,14 +139,11 @@ static brc_status spread(brc_simulation *s, brc_rings *r, bool by_level, int fro
 /* Several ranks bring what passes over the list read. */
 static brc_status share_list(brc_simulation *s, brc_rings *r, brc_ring_list *list)
 {
-    int32_t *own = NULL;
     const int32_t n = list->n[BRC_RING_KINDS - 1];
     if (list != &r->around || !brc_device_is_shared(s->device)) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &own, n, "rings around broken bonds"));
-    brc_status status = brc_buffer_read(list->upto[BRC_RING_KINDS - 1], 0, own, n * (int64_t)sizeof *own);
-    if (status == BRC_OK) status = brc_rows_among_make(s->device, n, own, &list->among);
-    brc_memory_free(own);
-    return status;
+    BRC_LOCAL(s->context, n, int32_t, own, "rings around broken bonds");
+    BRC_TRY(brc_buffer_read(list->upto[BRC_RING_KINDS - 1], 0, own, n * (int64_t)sizeof *own));
+    return brc_rows_among_make(s->device, n, own, &list->among);
 }
 
 enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in rings.cl */

@@ -72,16 +72,13 @@ BRC_FIELD_TABLE(brc_state_fields, "state", BRC_LIFE_RUN, NULL, rows);
 
 brc_status brc_simulation_fields_create(brc_simulation *s)
 {
-    double *upright = NULL;
     BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s->core));
     BRC_TRY(brc_buffer_create_scratch(s->core->kinetic, &s->core->listed));
     if (!s->model->turns) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &upright, 4 * (int64_t)s->layout->n_rows, "orientations"));
+    BRC_LOCAL(s->context, 4 * (int64_t)s->layout->n_rows, double, upright, "orientations");
     for (int64_t r = 0; r < s->layout->n_rows; ++r)
         upright[4 * r] = 1;
-    const brc_status status = brc_upload_state(s, s->core->orientation, upright, 4 * (int64_t)s->layout->n_rows);
-    brc_memory_free(upright);
-    return status;
+    return brc_upload_state(s, s->core->orientation, upright, 4 * (int64_t)s->layout->n_rows);
 }
 
 void brc_simulation_fields_free(brc_simulation *s)

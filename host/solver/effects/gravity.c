@@ -58,13 +58,11 @@ static brc_status add(brc_simulation *s, const brc_occasion *now)
 static brc_status potential(brc_simulation *s, const brc_occasion *now)
 {
     const brc_domain *d = s->domain;
-    double *u = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, u, "displacements");
     const brc_status status = brc_state_from_rows(s, brc_displacement_of(s), u, 3);
     for (int64_t e = 0; e < d->n_elements; ++e)
         for (int c = 0; c < 3; ++c)
             now->ledger->potential -= mass_of(s, e) * s->scene->gravity[c] * u[3 * e + c];
-    brc_memory_free(u);
     return status;
 }
 

@@ -59,18 +59,16 @@ static void release(brc_simulation *s)
 static brc_status speeds(brc_simulation *s, double *wave, double *fastest)
 {
     const int64_t n = s->domain->n_elements;
-    double *v = NULL;
     *wave = *fastest = 0;
     for (int64_t e = 0; e < s->domain->n_elements; ++e) {
         const brc_elastic *m = s->elastic + s->material_of_element[e];
         *wave = fmax(*wave, sqrt((m->lambda + 2 * m->mu) / m->density));
     }
-    BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
+    BRC_LOCAL(s->context, 3 * n, double, v, "velocities");
     const brc_status status = brc_state_from_rows(s, brc_velocity_of(s), v, 3);
     for (int64_t e = 0; e < n; ++e)
         *fastest =
             fmax(*fastest, sqrt(v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2]));
-    brc_memory_free(v);
     return status;
 }
 
@@ -158,8 +156,8 @@ static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *loo
 static brc_status fastest_element(brc_simulation *s, int64_t *element)
 {
     const int64_t n = s->domain->n_elements;
-    double *v = NULL, most = -1;
-    BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
+    double most = -1;
+    BRC_LOCAL(s->context, 3 * n, double, v, "velocities");
     const brc_status status = brc_state_from_rows(s, brc_velocity_of(s), v, 3);
     for (int64_t e = 0; e < n; ++e) {
         const double square = v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2];
@@ -167,7 +165,6 @@ static brc_status fastest_element(brc_simulation *s, int64_t *element)
         most = square;
         *element = e;
     }
-    brc_memory_free(v);
     return status;
 }
 

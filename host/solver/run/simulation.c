@@ -53,23 +53,20 @@ static brc_status share_rows(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *neighbour = NULL;
     if (brc_ranks_count() == 1) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
+    BRC_LOCAL(s->context, n, int32_t, neighbour, "neighbours");
     for (int32_t block = 0; block < layout->n_slices; ++block)
         for (int64_t k = (int64_t)layout->slot_start[block] * layout->slice;
              k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
             neighbour[k] = layout->half_edge[k] >= 0
                                ? layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]]
                                : block * layout->slice + (int32_t)(k % layout->slice);
-    const brc_status status = brc_device_share(s->device, &(brc_rows_of_device){.n_rows = layout->n_rows,
-                                                                                .n_groups = s->n_groups,
-                                                                                .n_slices = layout->n_slices,
-                                                                                .slice = layout->slice,
-                                                                                .slot_start = layout->slot_start,
-                                                                                .neighbour = neighbour});
-    brc_memory_free(neighbour);
-    return status;
+    return brc_device_share(s->device, &(brc_rows_of_device){.n_rows = layout->n_rows,
+                                                             .n_groups = s->n_groups,
+                                                             .n_slices = layout->n_slices,
+                                                             .slice = layout->slice,
+                                                             .slot_start = layout->slot_start,
+                                                             .neighbour = neighbour});
 }
 
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,

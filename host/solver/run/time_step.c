@@ -60,17 +60,14 @@ BRC_FIELD_TABLE(brc_power_fields, "search for the time step", BRC_LIFE_SOLVE, dy
 static brc_status random_vector(brc_simulation *s, brc_buffer *out, uint64_t which, double scale)
 {
     const int64_t n = s->domain->n_elements;
-    double *values = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &values, 3 * n, "power iteration"));
+    BRC_LOCAL(s->context, 3 * n, double, values, "power iteration");
     for (int64_t e = 0; e < n; ++e) {
         double draws[4];
         brc_random_uniform4(1, BRC_RANDOM_POWER_ITERATION, (uint64_t)e, which, draws);
         for (int c = 0; c < 3; ++c)
             values[3 * e + c] = scale * (2 * draws[c] - 1);
     }
-    const brc_status status = brc_state_to_rows(s, out, values, 3, 0);
-    brc_memory_free(values);
-    return status;
+    return brc_state_to_rows(s, out, values, 3, 0);
 }
 
 /* One application: y = M^-1 K x (rotations likewise); *square: x.Mx, *rayleigh: x.Kx / x.Mx. x is scaled to y after. */

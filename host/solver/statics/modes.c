@@ -174,8 +174,7 @@ static brc_status gram_matrix(mode_space *t, int count, double *const *u, double
 {
     const int64_t n_chunks = (t->n + CHUNK - 1) / CHUNK;
     enum { PARTS = 16 };
-    double *parts = NULL;
-    BRC_TRY(BRC_ALLOCATE(t->s->context, &parts, (int64_t)PARTS * count * count, "modes"));
+    BRC_LOCAL(t->s->context, (int64_t)PARTS * count * count, double, parts, "modes");
 #pragma omp parallel for schedule(dynamic, 1)
     for (int part = 0; part < PARTS; ++part)
         for (int64_t chunk = n_chunks * part / PARTS; chunk < n_chunks * (part + 1) / PARTS; ++chunk) {
@@ -200,7 +199,6 @@ static brc_status gram_matrix(mode_space *t, int count, double *const *u, double
     for (int part = 0; part < PARTS; ++part)
         for (int k = 0; k < count * count; ++k)
             gram[k] += parts[(int64_t)part * count * count + k];
-    brc_memory_free(parts);
     return BRC_OK;
 }
 

@@ -93,14 +93,12 @@ static brc_status enqueue_survey(brc_simulation *s)
 static brc_status read_survey(brc_simulation *s, brc_buffer *moved, int32_t n_pieces, survey *out)
 {
     const int64_t n_blocks = brc_blocks(s->layout->n_rows, BRC_CONTACT_BLOCK), rows = n_blocks + n_pieces;
-    double *value = NULL;
     *out = (survey){.element = {0}};
-    BRC_TRY(BRC_ALLOCATE(s->context, &value, BRC_CONTACT_MOVED * rows, "moves since the last search"));
+    BRC_LOCAL(s->context, BRC_CONTACT_MOVED * rows, double, value, "moves since the last search");
     const brc_status status = brc_download(s, moved, brc_precision_state_bytes(brc_device_get_precision(s->device)),
                                            value, BRC_CONTACT_MOVED * rows);
     largest_of(value, 0, n_blocks, out->element);
     largest_of(value, n_blocks, rows, out->piece);
-    brc_memory_free(value);
     return status;
 }
 

@@ -18,16 +18,13 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
     brc_cell_breaks *cells = s->fracture->cells;
-    double *limit = NULL, *whole = NULL, *least = NULL;
-    int32_t *twin = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, n_entries, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &least, layout->n_rows, "smallest limits"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "twins"));
+    BRC_LOCAL(s->context, n_entries, double, limit, "limits of bonds");
+    BRC_LOCAL(s->context, n_entries, double, whole, "unbroken bonds");
+    BRC_LOCAL(s->context, layout->n_rows, double, least, "smallest limits");
+    BRC_LOCAL(s->context, n_entries, int32_t, twin, "twins");
     for (int32_t r = 0; r < layout->n_rows; ++r)
         least[r] = never;
-    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, d, twin));
+    BRC_TRY(brc_layout_twins(s->context, layout, d, twin));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double value = h >= 0 ? strength[d->bond[h]] : 0;
@@ -37,16 +34,10 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
         double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
         *own = fmin(*own, limit[k]);
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->limit, limit, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->alive, whole, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->least, least, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_int(cells->twin, twin, n_entries));
-cleanup:
-    brc_memory_free(limit);
-    brc_memory_free(whole);
-    brc_memory_free(least);
-    brc_memory_free(twin);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, cells->limit, limit, n_entries));
+    BRC_TRY(brc_upload_coeff(s, cells->alive, whole, n_entries));
+    BRC_TRY(brc_upload_coeff(s, cells->least, least, layout->n_rows));
+    return brc_upload_int(cells->twin, twin, n_entries);
 }
 
 static bool breaks(const brc_wants *w)

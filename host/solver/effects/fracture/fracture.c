@@ -47,17 +47,13 @@ static brc_status find_limits(brc_simulation *s)
 {
     const brc_domain *d = s->domain;
     const int32_t n_materials = s->scene->n_materials, n_pairs = s->scene->n_bodies * n_materials;
-    double *pair = NULL, *mean = NULL;
-    int64_t *count = NULL;
-    bool *known = NULL;
-    brc_status status = BRC_OK;
     const double shear = shear_limit(&s->scene->fracture, &s->fracture->slope);
     s->fracture->friction = sin(s->scene->fracture.friction);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &pair, 3 * (int64_t)n_pairs, "limits of materials"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &known, n_pairs, "limits of materials"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mean, s->scene->n_bodies, "radii of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &count, s->scene->n_bodies, "radii of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->fracture->limit, 3 * d->n_elements, "limits of elements"));
+    BRC_LOCAL(s->context, 3 * (int64_t)n_pairs, double, pair, "limits of materials");
+    BRC_LOCAL(s->context, n_pairs, bool, known, "limits of materials");
+    BRC_LOCAL(s->context, s->scene->n_bodies, double, mean, "radii of bodies");
+    BRC_LOCAL(s->context, s->scene->n_bodies, int64_t, count, "radii of bodies");
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->limit, 3 * d->n_elements, "limits of elements"));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0;
         if (d->radius) mean[b] += d->radius[e];
@@ -68,18 +64,12 @@ static brc_status find_limits(brc_simulation *s)
                       at = b * n_materials + m;
         if (!known[at]) {
             const brc_limit_case of = {&s->scene->materials[m], b, e, (double)count[b], mean[b], shear};
-            BRC_TRY_OR(cleanup, s->model->limits ? s->model->limits(s, &of, pair + 3 * at)
-                                                 : limits_of_solid(&of, pair + 3 * at));
+            BRC_TRY(s->model->limits ? s->model->limits(s, &of, pair + 3 * at) : limits_of_solid(&of, pair + 3 * at));
         }
         known[at] = true;
         memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
     }
-cleanup:
-    brc_memory_free(pair);
-    brc_memory_free(known);
-    brc_memory_free(mean);
-    brc_memory_free(count);
-    return status;
+    return BRC_OK;
 }
 
 /* ---- arrays ---- */
@@ -89,10 +79,8 @@ static brc_status upload_rows(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
-    double *record = NULL, *limit = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &record, 8 * (int64_t)layout->n_rows, "virial records"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, 3 * (int64_t)layout->n_rows, "limits"));
+    BRC_LOCAL(s->context, 8 * (int64_t)layout->n_rows, double, record, "virial records");
+    BRC_LOCAL(s->context, 3 * (int64_t)layout->n_rows, double, limit, "limits");
     for (int64_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
         double *volume = record + (8 * (r / layout->slice) + 6) * layout->slice + r % layout->slice;
@@ -101,12 +89,8 @@ static brc_status upload_rows(brc_simulation *s)
         for (int c = 0; e >= 0 && c < 3; ++c)
             limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->limits, limit, 3 * (int64_t)layout->n_rows));
-cleanup:
-    brc_memory_free(record);
-    brc_memory_free(limit);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
+    return brc_upload_coeff(s, s->fracture->limits, limit, 3 * (int64_t)layout->n_rows);
 }
 
 static bool breaks(const brc_wants *w)
@@ -354,15 +338,13 @@ brc_status brc_fracture_judged(brc_simulation *s, double *stress, double *record
 {
     const brc_layout *layout = s->layout;
     const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
-    double *rows = NULL;
     BRC_TRY(brc_coeff_from_rows(s, s->fracture->stress, stress, 6));
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, 8 * (int64_t)layout->n_rows, "virial records"));
+    BRC_LOCAL(s->context, 8 * (int64_t)layout->n_rows, double, rows, "virial records");
     const brc_status status = brc_download(s, s->fracture->record, bytes, rows, 8 * (int64_t)layout->n_rows);
     for (int64_t k = 0; status == BRC_OK && k < 8 * s->domain->n_elements; ++k) {
         const int64_t r = layout->row_of_element[k / 8];
         record[k] = rows[(8 * (r / layout->slice) + k % 8) * layout->slice + r % layout->slice];
     }
-    brc_memory_free(rows);
     return status;
 }
 

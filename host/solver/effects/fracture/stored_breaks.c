@@ -61,12 +61,9 @@ static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
 {
     const brc_layout *layout = s->layout;
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *neighbour = NULL;
-    uint8_t *broken = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "neighbours"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
+    BRC_LOCAL(s->context, n, int32_t, neighbour, "neighbours");
+    BRC_LOCAL(s->context, s->domain->n_half_edges, uint8_t, broken, "neighbours");
+    BRC_TRY(brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
     for (int64_t i = 0; i < half_edges->n; ++i)
         broken[half_edges->id[i]] = 1;
     for (int32_t block = 0; block < layout->n_slices; ++block)
@@ -74,11 +71,7 @@ static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
              k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
             if (layout->half_edge[k] >= 0 && broken[layout->half_edge[k]])
                 neighbour[k] = block * layout->slice + (int32_t)(k % layout->slice);
-    BRC_TRY_OR(cleanup, brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n));
-cleanup:
-    brc_memory_free(neighbour);
-    brc_memory_free(broken);
-    return status;
+    return brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n);
 }
 
 /* Stages that were entered, and the loads of static events: [first step, first load, first time, time step, stage]. */

@@ -90,28 +90,23 @@ static brc_status share_out(brc_simulation *s, const brc_stage *stage, const brc
 brc_status brc_push_create(brc_simulation *s, const brc_stage *stage, int32_t l, brc_push_load *out)
 {
     const brc_load *load = stage->loads + l;
-    brc_load_member *items = NULL;
-    int32_t n = 0, *element = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
-    BRC_TRY_OR(cleanup, leave_isolated_out(s, stage, load, items, &n));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "forces on elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "forces on elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->total_of, 3 * (int64_t)n, "forces on elements"));
-    BRC_TRY_OR(cleanup, share_out(s, stage, load, items, n, out->total_of));
+    BRC_FREED brc_load_member *items = NULL;
+    int32_t n = 0;
+    BRC_TRY(brc_load_members(s, stage, load, &items, &n));
+    BRC_TRY(leave_isolated_out(s, stage, load, items, &n));
+    BRC_LOCAL(s->context, n, int32_t, element, "forces on elements");
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "forces on elements"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->total_of, 3 * (int64_t)n, "forces on elements"));
+    BRC_TRY(share_out(s, stage, load, items, n, out->total_of));
     out->load = l;
     out->n = n;
     for (int32_t i = 0; i < n; ++i) {
         element[i] = items[i].row;
         out->element_id[i] = items[i].id;
     }
-    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_push_fields, n, out));
-    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, out->total, out->total_of, 3 * (int64_t)n));
-cleanup:
-    brc_memory_free(items);
-    brc_memory_free(element);
-    return status;
+    BRC_TRY(brc_load_fields_create(s, &brc_push_fields, n, out));
+    BRC_TRY(brc_upload_int(out->element, element, n));
+    return brc_upload_state(s, out->total, out->total_of, 3 * (int64_t)n);
 }
 
 brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken, brc_turn_load *out)

@@ -147,9 +147,7 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
                                bool *any)
 {
     const brc_domain *d = s->domain;
-    int32_t *element = NULL, *flag = NULL, n = 0;
-    double *base = NULL, *now = NULL;
-    brc_status status = BRC_OK;
+    int32_t n = 0;
     const bool meets = s->scene->has_contact && stage->solver == BRC_SOLVER_DYNAMIC;
     *any = false;
     if (!brc_has_spheres(s) || (meets && !s->scene->model.keep_isolated))
@@ -159,12 +157,12 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
     if (n == 0) return BRC_OK;
     *any = true;
     *out = (brc_imposed_load){.load = -1, .n = n, .component_bits = 7};
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &base, 3 * (int64_t)n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &now, 3 * d->n_elements, "isolated elements"));
-    BRC_TRY_OR(cleanup, brc_simulation_displacement(s, now));
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "isolated elements"));
+    BRC_LOCAL(s->context, n, int32_t, element, "isolated elements");
+    BRC_LOCAL(s->context, n, int32_t, flag, "isolated elements");
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, base, "isolated elements");
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, now, "isolated elements");
+    BRC_TRY(brc_simulation_displacement(s, now));
     n = 0;
     for (int32_t r = 0; r < s->layout->n_rows; ++r) {
         const int32_t e = s->layout->element_of_row[r];
@@ -176,13 +174,7 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
             base[3 * (int64_t)n + c] = now[3 * (int64_t)e + c];
         ++n;
     }
-    status = upload_imposed(s, out, element, flag, base);
-cleanup:
-    brc_memory_free(element);
-    brc_memory_free(flag);
-    brc_memory_free(base);
-    brc_memory_free(now);
-    return status;
+    return upload_imposed(s, out, element, flag, base);
 }
 
 brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out)

@@ -90,11 +90,8 @@ static brc_status upload_start(brc_simulation *s)
 {
     brc_strikers *t = s->strikers;
     const int32_t n = t->n;
-    double *room = NULL;
-    int32_t *freedom = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &room, 35 * (int64_t)n, "strikers"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &freedom, n, "strikers"));
+    BRC_LOCAL(s->context, 35 * (int64_t)n, double, room, "strikers");
+    BRC_LOCAL(s->context, n, int32_t, freedom, "strikers");
     double *upright = room, *motion = upright + 4 * n, *momentum = motion + 6 * n, *mass = momentum + 3 * n,
            *inertia = mass + n, *centre = inertia + 6 * n, *pose = centre + 3 * n;
     for (int32_t i = 0; i < n; ++i) {
@@ -115,19 +112,15 @@ static brc_status upload_start(brc_simulation *s)
         }
         times(t->body[i].inertia, motion + 6 * i + 3, momentum + 3 * i);
     }
-    BRC_TRY_OR(cleanup, brc_fields_create(s->device, &brc_striker_fields, &s->wants, t));
-    BRC_TRY_OR(cleanup, brc_upload_int(t->freedom, freedom, n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->orientation, upright, 4 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->pose, pose, 12 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->centre, centre, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->motion, motion, 6 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->momentum, momentum, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->mass, mass, 1 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->inertia, inertia, 6 * (int64_t)n));
-cleanup:
-    brc_memory_free(room);
-    brc_memory_free(freedom);
-    return status;
+    BRC_TRY(brc_fields_create(s->device, &brc_striker_fields, &s->wants, t));
+    BRC_TRY(brc_upload_int(t->freedom, freedom, n));
+    BRC_TRY(brc_upload_state(s, t->orientation, upright, 4 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->pose, pose, 12 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->centre, centre, 3 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->motion, motion, 6 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->momentum, momentum, 3 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->mass, mass, 1 * (int64_t)n));
+    return brc_upload_state(s, t->inertia, inertia, 6 * (int64_t)n);
 }
 
 brc_status brc_strikers_create(brc_simulation *s)

@@ -122,7 +122,7 @@ brc_status brc_beams_upload(brc_simulation *s)
 {
     if (!brc_device_has_many_materials(s->device)) return BRC_OK;
     const brc_layout *layout = s->layout;
-    double *rows = NULL;
+    BRC_FREED double *rows = NULL;
     brc_status status = BRC_ALLOCATE(s->context, &rows, 3 * (int64_t)layout->n_rows, "beams of elements");
     for (int32_t r = 0; status == BRC_OK && r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
@@ -131,9 +131,7 @@ brc_status brc_beams_upload(brc_simulation *s)
         rows[3 * (int64_t)r + 1] = beam->bend;
         rows[3 * (int64_t)r + 2] = beam->twist;
     }
-    if (status == BRC_OK) status = brc_upload_coeff(s, brc_beam_array_of(s), rows, 3 * (int64_t)layout->n_rows);
-    brc_memory_free(rows);
-    return status;
+    return status == BRC_OK ? brc_upload_coeff(s, brc_beam_array_of(s), rows, 3 * (int64_t)layout->n_rows) : status;
 }
 
 static double in_series(double a, double b)
@@ -259,15 +257,12 @@ static int64_t collect(const brc_domain *d, const uint8_t *whole, int64_t e, int
 brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
 {
     const brc_domain *d = s->domain;
-    double *sum = NULL;
-    int32_t *mark = NULL, *member = NULL;
-    uint8_t *whole = NULL;
-    brc_status status = BRC_OK;
-    if (s->fracture) BRC_TRY_OR(cleanup, brc_fracture_whole(s, &whole));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &sum, 6 * d->n_elements, "virial"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mark, d->n_elements, "virial"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "virial"));
-    BRC_TRY_OR(cleanup, virial(s, sum));
+    BRC_FREED uint8_t *whole = NULL;
+    if (s->fracture) BRC_TRY(brc_fracture_whole(s, &whole));
+    BRC_LOCAL(s->context, 6 * d->n_elements, double, sum, "virial");
+    BRC_LOCAL(s->context, d->n_elements, int32_t, mark, "virial");
+    BRC_LOCAL(s->context, d->n_elements, int32_t, member, "virial");
+    BRC_TRY(virial(s, sum));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int64_t n = collect(d, whole, e, level, mark, member);
         double total[6] = {0}, volume = 0;
@@ -279,10 +274,5 @@ brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
         for (int c = 0; c < 6; ++c)
             out[6 * e + c] = total[c] / (2 * volume);
     }
-cleanup:
-    brc_memory_free(sum);
-    brc_memory_free(mark);
-    brc_memory_free(member);
-    brc_memory_free(whole);
-    return status;
+    return BRC_OK;
 }

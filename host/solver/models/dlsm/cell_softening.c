@@ -143,12 +143,9 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
-    double *crack = NULL, *shear = NULL;
-    int32_t *lead = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lead, n_entries, "cohesion of faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &shear, layout->n_rows, "shear moduli"));
+    BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of faces");
+    BRC_LOCAL(s->context, n_entries, int32_t, lead, "cohesion of faces");
+    BRC_LOCAL(s->context, layout->n_rows, double, shear, "shear moduli");
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
@@ -159,14 +156,9 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     }
     for (int32_t r = 0; r < layout->n_rows; ++r)
         if (layout->element_of_row[r] >= 0) shear[r] = s->elastic[s->material_of_element[layout->element_of_row[r]]].mu;
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_int(f->lead, lead, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear, shear, layout->n_rows));
-cleanup:
-    brc_memory_free(crack);
-    brc_memory_free(lead);
-    brc_memory_free(shear);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
+    BRC_TRY(brc_upload_int(f->lead, lead, n_entries));
+    return brc_upload_coeff(s, f->shear, shear, layout->n_rows);
 }
 
 /* Limits and energies of faces that slide. */
@@ -178,12 +170,10 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
     const double whole = 2 * s->scene->fracture.cohesion * cos(s->scene->fracture.friction);
     const double reach = 2 * (1 + sin(s->scene->fracture.friction)); /* 2 cos |tau| + 2 sin sigma_n, and Mohr-Coulomb's
                                                                         sum, are at most this times the norm */
-    double *limit = NULL, *energy = NULL;
-    brc_status status = BRC_OK;
     if (!f->shear_limit) return BRC_OK;
     f->shear_least = INFINITY;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of shear"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &energy, n_entries, "fracture energies in shear"));
+    BRC_LOCAL(s->context, n_entries, double, limit, "limits of shear");
+    BRC_LOCAL(s->context, n_entries, double, energy, "fracture energies in shear");
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
@@ -191,12 +181,8 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
         limit[k] = (strengths->joint[d->bond[h]] ? -whole : whole) * strengths->factor[d->bond[h]];
         energy[k] = strengths->shear_energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_limit, limit, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_energy, energy, n_entries));
-cleanup:
-    brc_memory_free(limit);
-    brc_memory_free(energy);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, f->shear_limit, limit, n_entries));
+    return brc_upload_coeff(s, f->shear_energy, energy, n_entries);
 }
 
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
@@ -372,25 +358,17 @@ static brc_status rejoin(brc_simulation *s, softening_faces *f)
 {
     const brc_layout *layout = s->layout;
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *neighbour = NULL, *open = NULL;
-    double *alive = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n, "open faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
-    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n));
-    BRC_TRY_OR(cleanup, brc_download(s, brc_cell_breaks_array(s, "alive"),
-                                     brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
+    BRC_LOCAL(s->context, n, int32_t, neighbour, "neighbours");
+    BRC_LOCAL(s->context, n, int32_t, open, "open faces");
+    BRC_LOCAL(s->context, n, double, alive, "unbroken bonds");
+    BRC_TRY(brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
+    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n));
+    BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"),
+                         brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0)
             neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
-    BRC_TRY_OR(cleanup, brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n));
-cleanup:
-    brc_memory_free(neighbour);
-    brc_memory_free(open);
-    brc_memory_free(alive);
-    return status;
+    return brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n);
 }
 
 brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
@@ -423,18 +401,15 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
-    double *crack = NULL, *alive = NULL;
-    int32_t *open = NULL;
-    brc_status status = BRC_OK;
     *out = (brc_softening_report){0};
     if (!f || !f->any) return BRC_OK;
     const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n_entries, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open faces"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
-    BRC_TRY_OR(cleanup, brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_download(s, brc_cell_breaks_array(s, "alive"), bytes, alive, n_entries));
+    BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of faces");
+    BRC_LOCAL(s->context, n_entries, double, alive, "unbroken bonds");
+    BRC_LOCAL(s->context, n_entries, int32_t, open, "open faces");
+    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    BRC_TRY(brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
+    BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"), bytes, alive, n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
@@ -449,9 +424,5 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
         out->n_ended += 1;
         out->area += tilt * own[COSINE * layout->slice] * norm3(d->area_vector + 3 * (int64_t)h);
     }
-cleanup:
-    brc_memory_free(crack);
-    brc_memory_free(alive);
-    brc_memory_free(open);
-    return status;
+    return BRC_OK;
 }

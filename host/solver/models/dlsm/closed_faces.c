@@ -51,28 +51,20 @@ static int32_t moment_of(const brc_simulation *s)
 static brc_status upload_places(brc_simulation *s, closed_faces *f)
 {
     const int64_t n = s->layout->n_rows;
-    double *place = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "places of elements"));
+    BRC_LOCAL(s->context, 3 * n, double, place, "places of elements");
     for (int64_t r = 0; r < n; ++r)
         for (int c = 0; c < 3 && s->layout->element_of_row[r] >= 0; ++c)
             place[3 * r + c] = s->domain->position[3 * (int64_t)s->layout->element_of_row[r] + c];
-    BRC_TRY_OR(cleanup, brc_upload_state(s, f->place, place, 3 * n));
-cleanup:
-    brc_memory_free(place);
-    return status;
+    return brc_upload_state(s, f->place, place, 3 * n);
 }
 
 static brc_status upload_next(brc_simulation *s, closed_faces *f)
 {
     const int64_t n = s->layout->n_rows;
-    int32_t *next = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &next, n, "broken faces"));
+    BRC_LOCAL(s->context, n, int32_t, next, "broken faces");
     for (int64_t r = 0; r < n; ++r)
         next[r] = INT_MAX; /* CLOSED_NEVER */
-    const brc_status status = brc_upload_int(f->next, next, n);
-    brc_memory_free(next);
-    return status;
+    return brc_upload_int(f->next, next, n);
 }
 
 static bool shuts(const brc_wants *w)

@@ -50,8 +50,7 @@ static void cauchy_of(const double g[9], const double sigma[6], double out[6])
 brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
 {
     const int64_t n = s->domain->n_elements;
-    double *g = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &g, 9 * n, "deformation"));
+    BRC_LOCAL(s->context, 9 * n, double, g, "deformation");
     const brc_status status = deformation(s, g);
     for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
         double own[6], sigma[6];
@@ -61,7 +60,6 @@ brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *str
         if (stress) memcpy(stress + 6 * e, sigma, sizeof sigma);
         if (cauchy) cauchy_of(g + 9 * e, sigma, cauchy + 6 * e);
     }
-    brc_memory_free(g);
     return status;
 }
 

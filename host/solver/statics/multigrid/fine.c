@@ -205,18 +205,16 @@ static brc_status find_spacing(brc_simulation *s, brc_fine *f)
 {
     const brc_domain *d = s->domain;
     int32_t n_bodies = 1;
-    int64_t *count = NULL;
     for (int64_t e = 0; e < d->n_elements; ++e)
         if (d->body[e] >= n_bodies) n_bodies = d->body[e] + 1;
     BRC_TRY(BRC_ALLOCATE(s->context, &f->spacing, n_bodies, "levels"));
-    BRC_TRY(BRC_ALLOCATE(s->context, &count, n_bodies, "levels"));
+    BRC_LOCAL(s->context, n_bodies, int64_t, count, "levels");
     for (int64_t e = 0; e < d->n_elements; ++e) {
         f->spacing[d->body[e]] += d->volume[e];
         count[d->body[e]] += 1;
     }
     for (int32_t b = 0; b < n_bodies; ++b)
         if (count[b] > 0) f->spacing[b] = cbrt(f->spacing[b] / (double)count[b]);
-    brc_memory_free(count);
     return BRC_OK;
 }
 
