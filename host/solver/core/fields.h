@@ -65,6 +65,26 @@ typedef struct brc_field_row {
 #define BRC_NOT_KEPT NULL, BRC_KEEP_ALL
 #define BRC_KEPT(name, which) name, which
 #define BRC_FIELD_AT(owner, member) offsetof(owner, member)
+/* A row of a field that its owner calls as kernels do, and one that a checkpoint has; where in the owner: AT of the
+ * file. */
+#define BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, as, which)                                            \
+    {                                                                                                                  \
+        .name = #id, .count = each, .width = numbers, .number = BRC_FIELD_##kind, .wanted = when, .at = AT(id),        \
+        .what = words, .unit = in, .kept = as, .keep = which                                                           \
+    }
+#define BRC_FIELD(id, each, numbers, kind, when, words, in)                                                            \
+    BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, NULL, BRC_KEEP_ALL)
+/* When a field or table is wanted, and how many things have one: functions of w. */
+#define BRC_WANTED(name, condition)                                                                                    \
+    static bool name(const brc_wants *w)                                                                               \
+    {                                                                                                                  \
+        return condition;                                                                                              \
+    }
+#define BRC_COUNTED(name, number)                                                                                      \
+    static int64_t name(const brc_wants *w)                                                                            \
+    {                                                                                                                  \
+        return number;                                                                                                 \
+    }
 
 typedef struct brc_field_table {
     const char *owner; /* for listings */

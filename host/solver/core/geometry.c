@@ -187,51 +187,37 @@ brc_status brc_geometry_materials(brc_simulation *s)
     return BRC_OK;
 }
 
-static bool many_dlsm(const brc_wants *w)
-{
-    return w->many_materials && brc_wants_deforming(w);
-}
-static bool many_published(const brc_wants *w)
-{
-    return w->many_materials && brc_wants_rigid_cells(w);
-}
-static bool many_beams(const brc_wants *w)
-{
-    return w->many_materials && brc_wants_spheres(w);
-}
+BRC_WANTED(many_dlsm, w->many_materials &&brc_wants_deforming(w))
+BRC_WANTED(many_published, w->many_materials &&brc_wants_rigid_cells(w))
+BRC_WANTED(many_beams, w->many_materials &&brc_wants_spheres(w))
 
 #define AT(member) BRC_FIELD_AT(struct brc_core, member)
 static const brc_field_row rows[] = {
-    {"row_start", brc_each_slice_end, 1, BRC_FIELD_INT, NULL, AT(row_start), "slice starts", "-", BRC_NOT_KEPT},
-    {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-", BRC_NOT_KEPT},
+    BRC_FIELD(row_start, brc_each_slice_end, 1, INT, NULL, "slice starts", "-"),
+    BRC_FIELD(neighbour, brc_each_entry, 1, INT, NULL, "neighbours", "-"),
     {"ahead", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(asked_ahead), "rows asked for ahead", "-", BRC_NOT_KEPT},
-    {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-", BRC_NOT_KEPT},
-    {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
-    {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_rigid_cells, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
-    {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2",
-     BRC_NOT_KEPT},
-    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(inv_volume), "inverse volumes", "1/m^3",
-     BRC_NOT_KEPT},
-    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_cells, AT(inv_shape), "least-squares matrices", "1/m^3",
-     BRC_KEPT("cells.inverse_shape", BRC_KEEP_OWNERS)},
-    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_deforming, AT(area), "area vectors", "m^2",
-     BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
-    {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_deforming, AT(offset), "face offsets", "m", BRC_NOT_KEPT},
-    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(ratio), "length over area", "1/m",
-     BRC_KEPT("cells.ratio", BRC_KEEP_BROKEN)},
+    BRC_FIELD(boundary, brc_each_slice, 1, INT, NULL, "boundary blocks", "-"),
+    BRC_FIELD(mass, brc_each_row, 1, STATE, NULL, "masses", "kg"),
+    BRC_FIELD(volume, brc_each_row, 1, STATE, brc_wants_rigid_cells, "volumes", "m^3"),
+    BRC_FIELD(inertia, brc_each_row, 1, STATE, brc_wants_turning, "moments of inertia", "kg m^2"),
+    BRC_FIELD(inv_volume, brc_each_row, 1, COEFF, brc_wants_deforming, "inverse volumes", "1/m^3"),
+    BRC_KEPT_FIELD(inv_shape, brc_each_block, 6, COEFF, brc_wants_cells, "least-squares matrices", "1/m^3",
+                   "cells.inverse_shape", BRC_KEEP_OWNERS),
+    BRC_KEPT_FIELD(area, brc_each_entry, 3, COEFF, brc_wants_deforming, "area vectors", "m^2", "cells.area",
+                   BRC_KEEP_BROKEN),
+    BRC_FIELD(offset, brc_each_entry, 3, COEFF, brc_wants_deforming, "face offsets", "m"),
+    BRC_KEPT_FIELD(ratio, brc_each_entry, 1, COEFF, brc_wants_deforming, "length over area", "1/m", "cells.ratio",
+                   BRC_KEEP_BROKEN),
     {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_turning, AT(offset), "branches", "m", BRC_NOT_KEPT},
-    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(area), "face areas", "m^2",
-     BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    BRC_KEPT_FIELD(area, brc_each_entry, 1, COEFF, brc_wants_rigid_cells, "face areas", "m^2", "cells.area",
+                   BRC_KEEP_BROKEN),
     {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(ratio), "inverse lengths", "1/m",
      BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
-    {"material", brc_each_block, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -",
-     BRC_NOT_KEPT},
-    {"modulus", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(modulus), "stabilisation moduli", "Pa", BRC_NOT_KEPT},
-    {"ell_of", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(ell_of), "compaction ratios", "-", BRC_NOT_KEPT},
-    {"lame_of", brc_each_row, 3, BRC_FIELD_COEFF, many_published, AT(lame_of), "materials of elements", "Pa",
-     BRC_NOT_KEPT},
-    {"beam_of", brc_each_row, 3, BRC_FIELD_COEFF, many_beams, AT(beam_of), "beams of elements", "N, N m^2",
-     BRC_NOT_KEPT},
+    BRC_FIELD(material, brc_each_block, 4, COEFF, many_dlsm, "materials of elements", "Pa, -"),
+    BRC_FIELD(modulus, brc_each_row, 1, COEFF, many_dlsm, "stabilisation moduli", "Pa"),
+    BRC_FIELD(ell_of, brc_each_row, 1, COEFF, many_dlsm, "compaction ratios", "-"),
+    BRC_FIELD(lame_of, brc_each_row, 3, COEFF, many_published, "materials of elements", "Pa"),
+    BRC_FIELD(beam_of, brc_each_row, 3, COEFF, many_beams, "beams of elements", "N, N m^2"),
 };
 BRC_FIELD_TABLE(brc_geometry_fields, "geometry", BRC_LIFE_RUN, NULL, rows);
 

@@ -57,19 +57,17 @@ static brc_status order_elements(brc_context *context, const brc_domain *domain,
 brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int32_t slice, brc_layout **out)
 {
     *out = NULL;
-    brc_layout *layout = NULL;
-    sort_item *items = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_layout_free) brc_layout *layout = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &layout, 1, "storage layout"));
     layout->slice = slice;
     layout->n_slices = (int32_t)((domain->n_elements + slice - 1) / slice);
     layout->n_rows = layout->n_slices * slice;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &items, domain->n_elements, "storage order"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->row_of_element, domain->n_elements, "storage rows"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->element_of_row, layout->n_rows, "storage rows"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->slot_start, layout->n_slices + 1, "slice starts"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->boundary, layout->n_slices, "boundary blocks"));
-    BRC_TRY_OR(cleanup, order_elements(context, domain, slice, items));
+    BRC_LOCAL(context, domain->n_elements, sort_item, items, "storage order");
+    BRC_TRY(BRC_ALLOCATE(context, &layout->row_of_element, domain->n_elements, "storage rows"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->element_of_row, layout->n_rows, "storage rows"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->slot_start, layout->n_slices + 1, "slice starts"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->boundary, layout->n_slices, "boundary blocks"));
+    BRC_TRY(order_elements(context, domain, slice, items));
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         layout->element_of_row[r] = r < domain->n_elements ? items[r].element : -1;
         if (r < domain->n_elements) layout->row_of_element[items[r].element] = r;
@@ -84,17 +82,15 @@ brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int
             boundary = boundary || has_free_face(domain, e);
         }
         layout->n_slots += longest;
-        if (layout->n_slots * slice > MOST_ENTRIES) {
-            status = BRC_FAIL(context, BRC_BAD_INPUT,
-                              "the domain has %lld elements: more neighbour entries than %d, the most that kernels "
-                              "index; use fewer elements",
-                              (long long)domain->n_elements, MOST_ENTRIES);
-            goto cleanup;
-        }
+        if (layout->n_slots * slice > MOST_ENTRIES)
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "the domain has %lld elements: more neighbour entries than %d, the most that kernels "
+                            "index; use fewer elements",
+                            (long long)domain->n_elements, MOST_ENTRIES);
         layout->slot_start[s + 1] = (int32_t)layout->n_slots;
         layout->boundary[s] = boundary ? layout->n_boundary++ : -1;
     }
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->half_edge, layout->n_slots * slice, "stored half-edges"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->half_edge, layout->n_slots * slice, "stored half-edges"));
     for (int32_t s = 0; s < layout->n_slices; ++s)
         for (int32_t slot = layout->slot_start[s]; slot < layout->slot_start[s + 1]; ++slot)
             for (int32_t l = 0; l < slice; ++l) {
@@ -103,13 +99,10 @@ brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int
                 layout->half_edge[(int64_t)slot * slice + l] =
                     e >= 0 && k < degree(domain, e) ? (int32_t)(domain->row_start[e] + k) : -1;
             }
-    BRC_TRY_OR(cleanup, brc_layout_ahead(context, domain, layout));
+    BRC_TRY(brc_layout_ahead(context, domain, layout));
     *out = layout;
     layout = NULL;
-cleanup:
-    brc_memory_free(items);
-    brc_layout_free(&layout);
-    return status;
+    return BRC_OK;
 }
 
 void brc_layout_all_boundary(brc_layout *layout)

@@ -8,24 +8,15 @@ static int32_t blocks_of(const brc_simulation *s)
     return (s->layout->n_rows + BLOCK - 1) / BLOCK;
 }
 
-static bool of_cells(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_cells(w);
-}
-static bool softening_cells(const brc_wants *w)
-{
-    return of_cells(w) && w->softens;
-}
-static int64_t each_count(const brc_wants *w)
-{
-    return BRC_RING_KINDS * (int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1);
-}
+BRC_WANTED(of_cells, w->scene->has_fracture &&brc_wants_cells(w))
+BRC_WANTED(softening_cells, of_cells(w) && w->softens)
+BRC_COUNTED(each_count, BRC_RING_KINDS *(int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1))
 
 #define AT(member) BRC_FIELD_AT(brc_rings, member)
 static const brc_field_row rows[] = {
-    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "rings around broken bonds", "-", BRC_NOT_KEPT},
-    {"level", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(level), "rings around broken bonds", "-", BRC_NOT_KEPT},
-    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    BRC_FIELD(touched, brc_each_row, 1, INT, NULL, "rings around broken bonds", "-"),
+    BRC_FIELD(level, brc_each_row, 1, INT, NULL, "rings around broken bonds", "-"),
+    BRC_FIELD(count, each_count, 1, INT, NULL, "rings around broken bonds", "-"),
     {"fresh", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces around broken bonds", "N", BRC_NOT_KEPT},
     {"fresh_torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques around broken bonds",
      "N m", BRC_NOT_KEPT},

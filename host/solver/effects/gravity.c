@@ -7,10 +7,7 @@ typedef struct brc_weights {
     brc_buffer *weight; /* mass; 0 in padding, which has a mass to be divided by and, falling, would have an energy */
 } brc_weights;
 
-static bool in(const brc_wants *w)
-{
-    return w->scene->has_gravity;
-}
+BRC_WANTED(in, w->scene->has_gravity)
 
 static const brc_field_row rows[] = {{"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL,
                                       BRC_FIELD_AT(brc_weights, weight), "masses in gravity", "kg", BRC_NOT_KEPT}};

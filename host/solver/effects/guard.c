@@ -28,15 +28,12 @@ struct brc_guard_state {
     brc_guard_report report;
 };
 
-static int64_t each_block(const brc_wants *w)
-{
-    return (w->layout->n_rows + BLOCK - 1) / BLOCK;
-}
+BRC_COUNTED(each_block, (w->layout->n_rows + BLOCK - 1) / BLOCK)
 
 #define AT(member) BRC_FIELD_AT(struct brc_guard_state, member)
 static const brc_field_row rows[] = {
-    {"first", each_block, 1, BRC_FIELD_INT, NULL, AT(first), "guard", "-", BRC_NOT_KEPT},
-    {"when", each_block, 1, BRC_FIELD_INT, NULL, AT(when), "guard", "-", BRC_NOT_KEPT},
+    BRC_FIELD(first, each_block, 1, INT, NULL, "guard", "-"),
+    BRC_FIELD(when, each_block, 1, INT, NULL, "guard", "-"),
 };
 BRC_FIELD_TABLE(brc_guard_fields, "guard", BRC_LIFE_DYNAMIC, NULL, rows);
 

@@ -24,10 +24,7 @@ static bool asks(const brc_stage *stage)
     return stage->solver == BRC_SOLVER_DYNAMIC && stage->noise_damping > 0;
 }
 
-static bool noise(const brc_wants *w)
-{
-    return w->noise;
-}
+BRC_WANTED(noise, w->noise)
 
 static void ask(brc_wants *w, const int32_t *material)
 {
@@ -46,12 +43,11 @@ static int64_t quiet_steps(const brc_simulation *s)
 
 #define AT(member) BRC_FIELD_AT(struct brc_noise, member)
 static const brc_field_row rows[] = {
-    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(gradient), "gradients of velocities", "1/s", BRC_NOT_KEPT},
+    BRC_FIELD(gradient, brc_each_row, 9, COEFF, NULL, "gradients of velocities", "1/s"),
     {"stress", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(no_stress), "no stresses", "-", BRC_NOT_KEPT},
-    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(flux), "fluxes of velocities", "Pa/s", BRC_NOT_KEPT},
-    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_many, AT(bond_part), "bond parts of velocities", "Pa/s",
-     BRC_NOT_KEPT},
-    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces of noise damping", "N/s", BRC_NOT_KEPT},
+    BRC_FIELD(flux, brc_each_row, 9, COEFF, NULL, "fluxes of velocities", "Pa/s"),
+    BRC_FIELD(bond_part, brc_each_row, 9, COEFF, brc_wants_many, "bond parts of velocities", "Pa/s"),
+    BRC_FIELD(force, brc_each_row, 3, STATE, NULL, "forces of noise damping", "N/s"),
 };
 BRC_FIELD_TABLE(brc_noise_fields, "noise damping", BRC_LIFE_RUN, noise, rows);
 

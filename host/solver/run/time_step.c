@@ -50,10 +50,9 @@ static bool dynamics(const brc_wants *w)
 static const brc_field_row rows[] = {
     {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration", "-", BRC_NOT_KEPT},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration", "-", BRC_NOT_KEPT},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration", "-", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-",
-     BRC_NOT_KEPT},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration", "-", BRC_NOT_KEPT},
+    BRC_FIELD(theta, brc_each_row, 3, STATE, brc_wants_turning, "power iteration", "-"),
+    BRC_FIELD(orientation, brc_each_row, 4, STATE, brc_wants_turning, "power iteration", "-"),
+    BRC_FIELD(torque, brc_each_row, 3, STATE, brc_wants_turning, "power iteration", "-"),
 };
 BRC_FIELD_TABLE(brc_power_fields, "search for the time step", BRC_LIFE_SOLVE, dynamics, rows);
 

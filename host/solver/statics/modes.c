@@ -53,8 +53,8 @@ static bool modes(const brc_wants *w)
 static const brc_field_row mode_rows[] = {
     {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(in), "modes", "-", BRC_NOT_KEPT},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(out), "modes", "-", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "modes", "-", BRC_NOT_KEPT},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "modes", "-", BRC_NOT_KEPT},
+    BRC_FIELD(orientation, brc_each_row, 4, STATE, brc_wants_turning, "modes", "-"),
+    BRC_FIELD(torque, brc_each_row, 3, STATE, brc_wants_turning, "modes", "-"),
 };
 BRC_FIELD_TABLE(brc_mode_fields, "free vibration modes", BRC_LIFE_SOLVE, modes, mode_rows);
 

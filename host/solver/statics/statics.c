@@ -25,36 +25,28 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
 {
     static const double rigid_most = 1e-3;
     const int64_t n = s->domain->n_elements;
-    double *place = NULL, *torque = NULL, *force = NULL, rigid, square = 0;
-    brc_status status = BRC_OK;
+    double rigid, square = 0;
     bool moved = false;
     brc_loads_each_prescribed(s, note_moved, &moved);
     if (moved || !brc_solves_rotations(s->model)) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));
-    if (finite) BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_displacement_of(s), place, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_torque_of(s), torque, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_force_of(s), force, 3));
+    BRC_LOCAL(s->context, 3 * n, double, place, "balance");
+    BRC_LOCAL(s->context, 3 * n, double, torque, "balance");
+    BRC_LOCAL(s->context, 3 * n, double, force, "balance");
+    if (finite) BRC_TRY(brc_state_from_rows(s, brc_displacement_of(s), place, 3));
+    BRC_TRY(brc_state_from_rows(s, brc_torque_of(s), torque, 3));
+    BRC_TRY(brc_state_from_rows(s, brc_force_of(s), force, 3));
     for (int64_t k = 0; k < 3 * n; ++k) {
         place[k] += s->domain->position[k];
         square += force[k] * force[k];
     }
     brc_balance(n, place, torque, force, &rigid);
-    if (s->statics->report.iterations == 0 && rigid > rigid_most * sqrt(square)) {
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or "
-                          "turn it as a whole; hold "
-                          "some elements, or use a radial element_force",
-                          brc_current_stage(s)->name, rigid / sqrt(square));
-        goto cleanup;
-    }
-    status = brc_state_to_rows(s, brc_force_of(s), force, 3, 0);
-cleanup:
-    brc_memory_free(place);
-    brc_memory_free(torque);
-    brc_memory_free(force);
-    return status;
+    if (s->statics->report.iterations == 0 && rigid > rigid_most * sqrt(square))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or "
+                        "turn it as a whole; hold "
+                        "some elements, or use a radial element_force",
+                        brc_current_stage(s)->name, rigid / sqrt(square));
+    return brc_state_to_rows(s, brc_force_of(s), force, 3, 0);
 }
 
 brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm)

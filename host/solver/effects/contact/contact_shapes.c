@@ -103,13 +103,10 @@ static brc_status upload_pieces(brc_simulation *s)
 brc_status brc_contact_shapes(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    brc_convex cells = {0}, none = {0};
-    brc_status status = BRC_OK;
-    if (!brc_has_spheres(s)) BRC_TRY_OR(cleanup, brc_convex_of_domain(s->context, s->domain, 0, &cells));
-    if (cells.n && c->n_pieces) BRC_TRY_OR(cleanup, brc_strikers_check_edges(s, &cells));
-    BRC_TRY_OR(cleanup, upload_shapes(s, &cells, c->n_pieces ? s->wants.pieces : &none));
-    BRC_TRY_OR(cleanup, upload_pieces(s));
-cleanup:
-    brc_convex_free(&cells);
-    return status;
+    BRC_ENDS_WITH(brc_convex_free) brc_convex cells = {0};
+    brc_convex none = {0};
+    if (!brc_has_spheres(s)) BRC_TRY(brc_convex_of_domain(s->context, s->domain, 0, &cells));
+    if (cells.n && c->n_pieces) BRC_TRY(brc_strikers_check_edges(s, &cells));
+    BRC_TRY(upload_shapes(s, &cells, c->n_pieces ? s->wants.pieces : &none));
+    return upload_pieces(s);
 }

@@ -6,10 +6,7 @@
 
 extern const brc_field_table brc_contact_old_slot_fields, brc_contact_old_listed_fields;
 
-static bool in(const brc_wants *w)
-{
-    return w->scene->has_contact;
-}
+BRC_WANTED(in, w->scene->has_contact)
 static brc_status started(brc_simulation *s, const brc_occasion *now)
 {
     return brc_contact_enable(s, now->ledger);

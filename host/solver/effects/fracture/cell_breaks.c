@@ -40,47 +40,30 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
     return brc_upload_int(cells->twin, twin, n_entries);
 }
 
-static bool breaks(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_cells(w);
-}
-static bool dlsm_by_bond(const brc_wants *w)
-{
-    return brc_wants_deforming(w) && !w->by_element;
-}
-static bool dlsm_by_element(const brc_wants *w)
-{
-    return brc_wants_deforming(w) && w->by_element;
-}
-static bool published_by_bond(const brc_wants *w)
-{
-    return brc_wants_rigid_cells(w) && !w->by_element;
-}
+BRC_WANTED(breaks, w->scene->has_fracture &&brc_wants_cells(w))
+BRC_WANTED(dlsm_by_bond, brc_wants_deforming(w) && !w->by_element)
+BRC_WANTED(dlsm_by_element, brc_wants_deforming(w) && w->by_element)
+BRC_WANTED(published_by_bond, brc_wants_rigid_cells(w) && !w->by_element)
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
 static const brc_field_row rows[] = {
-    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa",
-     BRC_KEPT("cells.limit", BRC_KEEP_BROKEN)},
-    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-",
-     BRC_KEPT("cells.alive", BRC_KEEP_BROKEN)},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-", BRC_NOT_KEPT},
-    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-", BRC_NOT_KEPT},
-    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa", BRC_NOT_KEPT},
-    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa",
-     BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
+    BRC_KEPT_FIELD(limit, brc_each_entry, 1, COEFF, NULL, "limits of bonds", "Pa", "cells.limit", BRC_KEEP_BROKEN),
+    BRC_KEPT_FIELD(alive, brc_each_entry, 1, COEFF, NULL, "unbroken bonds", "-", "cells.alive", BRC_KEEP_BROKEN),
+    BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "twins", "-"),
+    BRC_FIELD(mark, brc_each_entry, 1, INT, NULL, "marked bonds", "-"),
+    BRC_FIELD(measure, brc_each_entry, 1, COEFF, NULL, "stresses of marked bonds", "Pa"),
+    BRC_KEPT_FIELD(least, brc_each_row, 1, COEFF, NULL, "smallest limits", "Pa", "cells.least", BRC_KEEP_OWNERS),
     {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
-    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-", BRC_NOT_KEPT},
-    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(stiffest), "supports", "1/m^2",
-     BRC_NOT_KEPT},
-    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-", BRC_NOT_KEPT},
-    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-", BRC_NOT_KEPT},
-    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-", BRC_NOT_KEPT},
-    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-", BRC_NOT_KEPT},
+    BRC_FIELD(support, brc_each_row, 1, COEFF, NULL, "supports", "-"),
+    BRC_FIELD(stiffest, brc_each_row, 1, COEFF, brc_wants_deforming, "supports", "1/m^2"),
+    BRC_FIELD(changed, brc_each_row, 1, INT, NULL, "changed elements", "-"),
+    BRC_FIELD(look, brc_each_group, 1, INT, dlsm_by_bond, "groups to look at", "-"),
+    BRC_FIELD(weight, brc_each_row, 1, STATE, NULL, "weights of broken bonds", "-"),
+    BRC_FIELD(found, brc_each_row, 1, STATE, NULL, "marks of elements", "-"),
     {"own_branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
-    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(spanned), "supports", "-",
-     BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
-    {"bond_ratio", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(bond_ratio), "ratios of bonds", "-",
-     BRC_NOT_KEPT},
+    BRC_KEPT_FIELD(spanned, brc_each_block, 6, COEFF, brc_wants_rigid_cells, "supports", "-", "cells.spanned",
+                   BRC_KEEP_OWNERS),
+    BRC_FIELD(bond_ratio, brc_each_row, 1, COEFF, published_by_bond, "ratios of bonds", "-"),
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
 
@@ -144,22 +127,18 @@ static brc_status share_room(brc_simulation *s, brc_cell_breaks *c)
 
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
-    brc_strengths strengths = {0};
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_strengths_free) brc_strengths strengths = {0};
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
     BRC_TRY(brc_fields_create(s->device, &brc_cell_break_fields, &s->wants, s->fracture->cells));
     BRC_TRY(share_room(s, s->fracture->cells));
     s->fracture->cells->by_element = !brc_scene_breaks_by_bond(s->scene, s->scene->model.kind);
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
-    BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
-    BRC_TRY_OR(cleanup, brc_rings_create(s, &s->fracture->cells->rings));
-    BRC_TRY_OR(cleanup, make_passes(s, s->fracture->cells));
-    BRC_TRY_OR(cleanup, s->model->breaking->create(s));
-    if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
-    BRC_TRY_OR(cleanup, create_cohesion(s, &strengths));
-cleanup:
-    brc_strengths_free(&strengths);
-    return status;
+    BRC_TRY(upload_bonds(s, strengths.tension));
+    BRC_TRY(brc_rings_create(s, &s->fracture->cells->rings));
+    BRC_TRY(make_passes(s, s->fracture->cells));
+    BRC_TRY(s->model->breaking->create(s));
+    if (s->fracture->cells->by_element) BRC_TRY(brc_cell_criteria_create(s));
+    return create_cohesion(s, &strengths);
 }
 
 void brc_cell_breaks_free(brc_simulation *s)

@@ -7,14 +7,8 @@
 #include "../../core/rings.h"
 #include "strengths.h"
 
-static bool breaks(const brc_wants *w)
-{
-    return w->scene->has_fracture;
-}
-static bool costs(const brc_wants *w)
-{
-    return w->softens;
-}
+BRC_WANTED(breaks, w->scene->has_fracture)
+BRC_WANTED(costs, w->softens)
 static brc_status step(brc_simulation *s, const brc_occasion *now)
 {
     return brc_fracture_step(s, now->half_kick);

@@ -9,26 +9,21 @@
 static brc_status find_broken(brc_simulation *s, brc_chosen *out)
 {
     const int64_t n_entries = s->layout->n_slots * s->layout->slice;
-    int32_t *step = NULL;
-    uint8_t *broken = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED uint8_t *broken = NULL;
     int64_t n = 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &step, n_entries, "broken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "broken bonds"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
+    BRC_LOCAL(s->context, n_entries, int32_t, step, "broken bonds");
+    BRC_TRY(BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "broken bonds"));
+    BRC_TRY(brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         if (s->layout->half_edge[k] < 0 || step[k] == 0) continue;
         broken[s->layout->half_edge[k]] = 1;
         ++n;
     }
-    BRC_TRY_OR(cleanup, brc_memory_resize(s->context, (void **)&out->id, n, sizeof *out->id, "broken bonds"));
+    BRC_TRY(brc_memory_resize(s->context, (void **)&out->id, n, sizeof *out->id, "broken bonds"));
     out->n = 0;
     for (int64_t h = 0; h < s->domain->n_half_edges; ++h)
         if (broken[h]) out->id[out->n++] = (int32_t)h;
-cleanup:
-    brc_memory_free(step);
-    brc_memory_free(broken);
-    return status;
+    return BRC_OK;
 }
 
 brc_status brc_fracture_owners(brc_simulation *s, const brc_chosen *half_edges, brc_chosen *out)

@@ -11,26 +11,11 @@ static bool some_load(const brc_wants *w, brc_load_kind a, brc_load_kind b)
         }
     return false;
 }
-static bool faces(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_FACE_DISPLACEMENT, BRC_LOAD_FACE_VELOCITY);
-}
-static bool tractions(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_TRACTION, BRC_LOAD_PRESSURE);
-}
-static bool imposed(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_ELEMENT_DISPLACEMENT, BRC_LOAD_ELEMENT_VELOCITY);
-}
-static bool pushed(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_ELEMENT_FORCE, BRC_LOAD_ELEMENT_FORCE);
-}
-static bool turned(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_ELEMENT_ROTATION, BRC_LOAD_ELEMENT_ROTATION);
-}
+BRC_WANTED(faces, some_load(w, BRC_LOAD_FACE_DISPLACEMENT, BRC_LOAD_FACE_VELOCITY))
+BRC_WANTED(tractions, some_load(w, BRC_LOAD_TRACTION, BRC_LOAD_PRESSURE))
+BRC_WANTED(imposed, some_load(w, BRC_LOAD_ELEMENT_DISPLACEMENT, BRC_LOAD_ELEMENT_VELOCITY))
+BRC_WANTED(pushed, some_load(w, BRC_LOAD_ELEMENT_FORCE, BRC_LOAD_ELEMENT_FORCE))
+BRC_WANTED(turned, some_load(w, BRC_LOAD_ELEMENT_ROTATION, BRC_LOAD_ELEMENT_ROTATION))
 
 static brc_status enter(brc_simulation *s, const brc_occasion *now)
 {

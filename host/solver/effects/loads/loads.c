@@ -93,19 +93,17 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
 {
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
-    brc_status status = BRC_OK;
-    brc_load_member *items = NULL;
-    int32_t *element = NULL, *flag = NULL, n = 0;
+    BRC_FREED brc_load_member *items = NULL;
+    int32_t n = 0;
     int64_t twice = 0;
-    double *base = NULL, *direction = NULL, *now = NULL;
-    BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &base, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &direction, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &now, 3 * d->n_elements, "imposed elements"));
-    if (load->kind == BRC_LOAD_ELEMENT_VELOCITY) BRC_TRY_OR(cleanup, brc_simulation_displacement(s, now));
+    BRC_TRY(brc_load_members(s, stage, load, &items, &n));
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "imposed elements"));
+    BRC_LOCAL(s->context, n, int32_t, element, "imposed elements");
+    BRC_LOCAL(s->context, n, int32_t, flag, "imposed elements");
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, base, "imposed elements");
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, direction, "imposed elements");
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, now, "imposed elements");
+    if (load->kind == BRC_LOAD_ELEMENT_VELOCITY) BRC_TRY(brc_simulation_displacement(s, now));
     out->load = l;
     out->n = n;
     out->component_bits = brc_load_components(load);
@@ -120,20 +118,9 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
         for (int c = 0; c < 3; ++c)
             base[3 * (int64_t)i + c] = now[3 * e + c];
     }
-    if (twice) {
-        status = brc_loads_refuse_twice(s, stage, load, twice);
-        goto cleanup;
-    }
-    BRC_TRY_OR(cleanup, upload_imposed(s, out, element, flag, base));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, out->direction, direction, 3 * (int64_t)n));
-cleanup:
-    brc_memory_free(items);
-    brc_memory_free(element);
-    brc_memory_free(flag);
-    brc_memory_free(base);
-    brc_memory_free(direction);
-    brc_memory_free(now);
-    return status;
+    if (twice) return brc_loads_refuse_twice(s, stage, load, twice);
+    BRC_TRY(upload_imposed(s, out, element, flag, base));
+    return brc_upload_state(s, out->direction, direction, 3 * (int64_t)n);
 }
 
 const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed)

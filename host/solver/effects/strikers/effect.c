@@ -2,10 +2,7 @@
 #include "../effect.h"
 #include "strikers_internal.h"
 
-static bool in(const brc_wants *w)
-{
-    return w->scene->n_strikers > 0;
-}
+BRC_WANTED(in, w->scene->n_strikers > 0)
 static brc_status advance(brc_simulation *s, const brc_occasion *now)
 {
     return brc_strikers_advance(s, now->kick, now->drift, now->extra, now->numerical);

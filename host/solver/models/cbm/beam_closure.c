@@ -14,20 +14,15 @@ struct brc_beam_closure {
 };
 typedef struct brc_beam_closure beam_closure;
 
-static bool softens(const brc_wants *w)
-{
-    return w->softens;
-}
+BRC_WANTED(softens, w->softens)
 
 #define AT(member) BRC_FIELD_AT(beam_closure, member)
 static const brc_field_row rows[] = {
-    {"other", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(other), "broken beams", "-", BRC_NOT_KEPT},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "broken beams", "-", BRC_NOT_KEPT},
-    {"bears", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(bears), "broken beams", "-",
-     BRC_KEPT("closure.bears", BRC_KEEP_ALL)},
-    {"lean", brc_each_entry, LEAN, BRC_FIELD_COEFF, softens, AT(lean), "broken beams", "-",
-     BRC_KEPT("closure.lean", BRC_KEEP_ALL)},
-    {"rubs", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(rubs), "broken beams", "-", BRC_NOT_KEPT},
+    BRC_FIELD(other, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
+    BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
+    BRC_KEPT_FIELD(bears, brc_each_entry, 1, INT, NULL, "broken beams", "-", "closure.bears", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(lean, brc_each_entry, LEAN, COEFF, softens, "broken beams", "-", "closure.lean", BRC_KEEP_ALL),
+    BRC_FIELD(rubs, brc_each_group, 1, INT, NULL, "broken beams", "-"),
 };
 BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_lost_beams, rows);
 

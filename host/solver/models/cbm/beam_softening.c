@@ -19,21 +19,17 @@ struct brc_beam_softening {
 };
 typedef struct brc_beam_softening beam_softening;
 
-static bool softens(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_spheres(w) && w->softens;
-}
+BRC_WANTED(softens, w->scene->has_fracture &&brc_wants_spheres(w) && w->softens)
 
 #define AT(member) BRC_FIELD_AT(beam_softening, member)
 static const brc_field_row rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-",
-     BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-",
-     BRC_KEPT("softening.open", BRC_KEEP_ALL)},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams", "-", BRC_NOT_KEPT},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams", "-", BRC_NOT_KEPT},
-    {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams", "-", BRC_NOT_KEPT},
-    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "open beams", "-", BRC_NOT_KEPT},
+    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of beams", "-", "softening.crack",
+                   BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open beams", "-", "softening.open", BRC_KEEP_ALL),
+    BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
+    BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
+    BRC_FIELD(active, brc_each_group, 1, INT, NULL, "open beams", "-"),
+    BRC_FIELD(touched, brc_each_row, 1, INT, NULL, "open beams", "-"),
 };
 BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, softens, rows);
 

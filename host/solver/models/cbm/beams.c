@@ -82,34 +82,30 @@ static brc_status refuse_isolated(brc_simulation *s)
 brc_status brc_beams_create(brc_simulation *s)
 {
     const brc_scene *scene = s->scene;
-    brc_status status = BRC_OK;
-    body_radii *radii = NULL;
+    BRC_FREED body_radii *radii = NULL;
     if (s->domain->element_kind != BRC_ELEMENT_SPHERE)
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "model cbm needs spheres joined by beams, the bodies are cells; add `beams: {coordination: 8}` "
                         "and a fill with radii "
                         "to each body");
     BRC_TRY(refuse_isolated(s));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &radii, scene->n_bodies, "radii of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->beam,
-                                     (int64_t)scene->n_bodies * scene->n_materials, "beams"));
-    BRC_TRY_OR(cleanup, find_radii(s, radii));
+    BRC_TRY(BRC_ALLOCATE(s->context, &radii, scene->n_bodies, "radii of bodies"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->beam, (int64_t)scene->n_bodies * scene->n_materials, "beams"));
+    BRC_TRY(find_radii(s, radii));
     for (int32_t b = 0; b < scene->n_bodies; ++b)
         for (int32_t m = 0; m < scene->n_materials; ++m) {
             brc_beam *beam = &brc_cbm_own_of(s)->beam[b * scene->n_materials + m];
             double ratio, young;
             if (!brc_body_uses(&scene->bodies[b], m) || radii[b].n == 0)
                 continue; /* a material that the body lacks may be out of reach of its law */
-            BRC_TRY_OR(cleanup, micro_parameters(s, &scene->materials[m], b, &radii[b], &ratio, &young));
+            BRC_TRY(micro_parameters(s, &scene->materials[m], b, &radii[b], &ratio, &young));
             beam->radius = ratio * radii[b].sum / (double)radii[b].n;
             const double square = beam->radius * beam->radius, bending = M_PI * square * square / 4;
             beam->axial = young * M_PI * square;
             beam->bend = 2 * young * bending;
             beam->twist = young / (2 * (1 + scene->model.beam_poisson)) * 2 * bending;
         }
-cleanup:
-    brc_memory_free(radii);
-    return status;
+    return BRC_OK;
 }
 
 const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e)

@@ -132,20 +132,15 @@ brc_status brc_dlsm_screening_forces(brc_simulation *s, const brc_force_request 
 
 brc_status brc_dlsm_ratio(brc_simulation *s, double *out)
 {
-    brc_buffer *ratio = NULL;
-    double *value = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_buffer_free) brc_buffer *ratio = NULL;
     *out = 0;
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_RUN(brc_dlsm_own_of(s)->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
-    BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
+    BRC_TRY(brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
+    BRC_LOCAL(s->context, s->domain->n_elements, double, value, "failure ratios");
+    BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
+    BRC_TRY(brc_coeff_from_rows(s, ratio, value, 1));
     for (int64_t e = 0; e < s->domain->n_elements; ++e)
         *out = fmax(*out, value[e]);
-cleanup:
-    brc_buffer_free(&ratio);
-    brc_memory_free(value);
-    return status;
+    return BRC_OK;
 }
 
 /* Areas and ratios are stored in place of branches. */

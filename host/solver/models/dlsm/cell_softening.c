@@ -42,33 +42,22 @@ struct brc_softening_faces {
 };
 typedef struct brc_softening_faces softening_faces;
 
-static bool softens(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_cells(w) && w->softens;
-}
-
-static bool slides(const brc_wants *w)
-{
-    return brc_scene_slides(w->scene, w->scene->model.kind);
-}
+BRC_WANTED(softens, w->scene->has_fracture &&brc_wants_cells(w) && w->softens)
+BRC_WANTED(slides, brc_scene_slides(w->scene, w->scene->model.kind))
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-",
-     BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-",
-     BRC_KEPT("softening.open", BRC_KEEP_ALL)},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-", BRC_NOT_KEPT},
-    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-",
-     BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-",
-     BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
-    {"shear_limit", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_limit), "limits of shear", "Pa", BRC_NOT_KEPT},
-    {"shear_energy", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_energy), "fracture energies in shear", "J",
-     BRC_NOT_KEPT},
-    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa", BRC_NOT_KEPT},
-    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
-     BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
+    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of faces", "-", "softening.crack",
+                   BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open faces", "-", "softening.open", BRC_KEEP_ALL),
+    BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of faces", "-"),
+    BRC_KEPT_FIELD(n_open, brc_each_row, 1, INT, NULL, "open faces", "-", "softening.n_open", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(reach, brc_each_row, 1, COEFF, NULL, "reach of open faces", "-", "softening.reach", BRC_KEEP_ALL),
+    BRC_FIELD(shear_limit, brc_each_entry, 1, COEFF, slides, "limits of shear", "Pa"),
+    BRC_FIELD(shear_energy, brc_each_entry, 1, COEFF, slides, "fracture energies in shear", "J"),
+    BRC_FIELD(shear, brc_each_row, 1, COEFF, NULL, "shear moduli", "Pa"),
+    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "softening.rubbed",
+                   BRC_KEEP_ALL),
 };
 BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
 

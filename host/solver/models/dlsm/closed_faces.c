@@ -67,36 +67,27 @@ static brc_status upload_next(brc_simulation *s, closed_faces *f)
     return brc_upload_int(f->next, next, n);
 }
 
-static bool shuts(const brc_wants *w)
-{
-    return brc_scene_shuts(w->scene) && brc_wants_deforming(w) && !w->softens;
-}
-static bool rubs(const brc_wants *w)
-{
-    return brc_scene_side_friction(w->scene) > 0;
-}
+BRC_WANTED(shuts, brc_scene_shuts(w->scene) && brc_wants_deforming(w) && !w->softens)
+BRC_WANTED(rubs, brc_scene_side_friction(w->scene) > 0)
 
 #define AT(member) BRC_FIELD_AT(closed_faces, member)
 static const brc_field_row rows[] = {
-    {"closed", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(closed), "broken faces", "-",
-     BRC_KEPT("closed.faces", BRC_KEEP_BROKEN)},
-    {"spring", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(spring), "springs of broken faces", "N/m",
-     BRC_KEPT("closed.spring", BRC_KEEP_BROKEN)},
-    {"overlap", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(overlap), "broken faces", "m",
-     BRC_KEPT("closed.overlap", BRC_KEEP_BROKEN)},
-    {"slide", brc_each_entry, 3, BRC_FIELD_COEFF, rubs, AT(slide), "friction of broken faces", "m",
-     BRC_KEPT("closed.slide", BRC_KEEP_BROKEN)},
-    {"place", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(place), "places of elements", "m", BRC_NOT_KEPT},
-    {"next", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(next), "broken faces", "-",
-     BRC_KEPT("closed.next", BRC_KEEP_ALL)},
-    {"presses", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(presses), "broken faces", "-", BRC_NOT_KEPT},
+    BRC_KEPT_FIELD(closed, brc_each_entry, 1, INT, NULL, "broken faces", "-", "closed.faces", BRC_KEEP_BROKEN),
+    BRC_KEPT_FIELD(spring, brc_each_entry, 1, COEFF, NULL, "springs of broken faces", "N/m", "closed.spring",
+                   BRC_KEEP_BROKEN),
+    BRC_KEPT_FIELD(overlap, brc_each_entry, 1, COEFF, NULL, "broken faces", "m", "closed.overlap", BRC_KEEP_BROKEN),
+    BRC_KEPT_FIELD(slide, brc_each_entry, 3, COEFF, rubs, "friction of broken faces", "m", "closed.slide",
+                   BRC_KEEP_BROKEN),
+    BRC_FIELD(place, brc_each_row, 3, STATE, NULL, "places of elements", "m"),
+    BRC_KEPT_FIELD(next, brc_each_row, 1, INT, NULL, "broken faces", "-", "closed.next", BRC_KEEP_ALL),
+    BRC_FIELD(presses, brc_each_row, 1, INT, NULL, "broken faces", "-"),
     {"probe", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(look), "broken faces", "-", BRC_NOT_KEPT},
-    {"near", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(near), "broken faces", "-", BRC_NOT_KEPT},
-    {"load", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(load), "forces of broken faces", "N", BRC_NOT_KEPT},
-    {"delta", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(delta), "forces of broken faces", "N", BRC_NOT_KEPT},
-    {"held", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(held), "energy of broken faces", "J", BRC_NOT_KEPT},
-    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
-     BRC_KEPT("closed.rubbed", BRC_KEEP_ALL)},
+    BRC_FIELD(near, brc_each_row, 1, INT, NULL, "broken faces", "-"),
+    BRC_FIELD(load, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
+    BRC_FIELD(delta, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
+    BRC_FIELD(held, brc_each_row, 1, STATE, NULL, "energy of broken faces", "J"),
+    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "closed.rubbed",
+                   BRC_KEEP_ALL),
 };
 BRC_FIELD_TABLE(brc_closed_face_fields, "broken faces that bear", BRC_LIFE_RUN, shuts, rows);
 

@@ -324,16 +324,15 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
 {
     const int64_t held = brc_memory_held(), on_device = brc_device_bytes(s->device);
     const double since = omp_get_wtime();
-    brc_multigrid *m = NULL;
-    brc_fine fine = {0};
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_multigrid_free) brc_multigrid *m = NULL;
+    BRC_ENDS_WITH(brc_fine_free) brc_fine fine = {0};
     *out = NULL;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &m, 1, "multigrid"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &m, 1, "multigrid"));
     m->s = s;
-    BRC_TRY_OR(cleanup, make_passes(m));
+    BRC_TRY(make_passes(m));
     if (!(origin->weight > 0) && s->fracture) origin->moment = brc_fracture_moment(s);
-    BRC_TRY_OR(cleanup, brc_fine_create(s, origin->moment, &fine));
-    BRC_TRY_OR(cleanup, make_levels(m, &fine, origin->weight));
+    BRC_TRY(brc_fine_create(s, origin->moment, &fine));
+    BRC_TRY(make_levels(m, &fine, origin->weight));
     origin->weight = m->level[0].weight;
     m->report = (brc_multigrid_report){.n_levels = m->n_levels,
                                        .device_bytes = brc_device_bytes(s->device) - on_device,
@@ -343,10 +342,7 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
         m->report.nodes[i] = i == 0 ? s->domain->n_elements : m->level[i].n;
     *out = m;
     m = NULL;
-cleanup:
-    brc_fine_free(&fine);
-    brc_multigrid_free(&m);
-    return status;
+    return BRC_OK;
 }
 
 void brc_multigrid_free(brc_multigrid **multigrid)
