@@ -186,14 +186,12 @@ brc_status brc_rings_list_touched(brc_simulation *s, brc_rings *r)
 
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *r, brc_buffer *number)
 {
-    const int32_t n = s->layout->n_rows;
-    return BRC_RUN(r->seed, n, {"above", BRC_INT(1)}, {"number", BRC_BUF(number)});
+    return BRC_RUN(r->seed, s->layout->n_rows, {"above", BRC_INT(1)}, {"number", BRC_BUF(number)});
 }
 
 brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number, brc_ring_list *out)
 {
-    const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_RUN(r->seed, n, {"above", BRC_INT(0)}, {"number", BRC_BUF(number)}));
+    BRC_TRY(BRC_RUN(r->seed, s->layout->n_rows, {"above", BRC_INT(0)}, {"number", BRC_BUF(number)}));
     return brc_rings_close(s, r, BRC_RINGS_DROP, out);
 }
 

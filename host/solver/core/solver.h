@@ -54,6 +54,13 @@ struct brc_simulation {
     struct brc_guard_state *guard; /* from the first dynamic stage that is run (not stepped by hand) on */
 };
 
+/* A function that tells a value that its folder keeps: BRC_READ(int64_t, brc_simulation_step, s->run->step). */
+#define BRC_READ(type, name, value)                                                                                    \
+    type name(const brc_simulation *s)                                                                                 \
+    {                                                                                                                  \
+        return value;                                                                                                  \
+    }
+
 /* ---- arrays of elements and bonds (core/element_arrays.c); NULL: not in this run ---- */
 brc_buffer *brc_displacement_of(const brc_simulation *s); /* [n_rows][3] */
 brc_buffer *brc_velocity_of(const brc_simulation *s);

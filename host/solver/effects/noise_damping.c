@@ -107,21 +107,14 @@ static bool due(const brc_simulation *s)
 brc_status brc_noise_damp(brc_simulation *s)
 {
     struct brc_noise *d = s->noise;
-    const int32_t n = s->layout->n_rows;
     for (int k = 0; d->of_model[k]; ++k)
         BRC_TRY(brc_pass_run(d->of_model[k], s->n_groups));
     BRC_TRY(brc_constrain(s, d->force, NULL));
-    return brc_pass_run(d->damp, n);
+    return brc_pass_run(d->damp, s->layout->n_rows);
 }
 
-brc_buffer *brc_noise_drag(const brc_simulation *s)
-{
-    return s->noise->force;
-}
-double brc_noise_factor(const brc_simulation *s)
-{
-    return s->noise->factor;
-}
+BRC_READ(brc_buffer *, brc_noise_drag, s->noise->force)
+BRC_READ(double, brc_noise_factor, s->noise->factor)
 
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_ENTERED, .plain = enter},
                                     {.hook = BRC_HOOK_WHOLE, .plain = brc_noise_damp, .due = due}};

@@ -55,7 +55,4 @@ void brc_simulation_set_trial_budget(brc_simulation *s, const brc_trial_budget *
     s->run->budget = budget;
 }
 
-bool brc_simulation_stopped_early(const brc_simulation *s)
-{
-    return s->run->stopped_early;
-}
+BRC_READ(bool, brc_simulation_stopped_early, s->run->stopped_early)

@@ -150,10 +150,7 @@ brc_status brc_contact_enable(brc_simulation *s, const brc_ledger *ledger)
                     brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
 }
 
-int64_t brc_contact_next_look(const brc_simulation *s)
-{
-    return s->contact->due ? 0 : s->contact->quiet;
-}
+BRC_READ(int64_t, brc_contact_next_look, s->contact->due ? 0 : s->contact->quiet)
 
 brc_status brc_contact_follow(brc_simulation *s)
 {
@@ -280,9 +277,8 @@ static brc_buffer *touched(const brc_simulation *s)
 brc_status brc_contact_expose(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     if (!s->fracture) return BRC_OK;
-    return BRC_RUN(c->pass.expose, n, {"broken", BRC_BUF(brc_fracture_lost_bonds(s))});
+    return BRC_RUN(c->pass.expose, s->layout->n_rows, {"broken", BRC_BUF(brc_fracture_lost_bonds(s))});
 }
 
 /* What the breaks of this step change of the list. */

@@ -84,17 +84,13 @@ brc_status brc_contact_list_bonded(brc_simulation *s)
     return brc_rings_without(s, brc_cell_breaks_rings(s), c->rigid, c->bonded);
 }
 
-const brc_ring_list *brc_contact_bonded(const brc_simulation *s)
-{
-    return s->contact ? s->contact->bonded : NULL;
-}
+BRC_READ(const brc_ring_list *, brc_contact_bonded, s->contact ? s->contact->bonded : NULL)
 
 brc_status brc_contact_pose(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     if (!c || !(c->n_rigid > 0)) return BRC_OK;
-    return brc_pass_run(c->pass.pose, n);
+    return brc_pass_run(c->pass.pose, s->layout->n_rows);
 }
 
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra)

@@ -448,14 +448,8 @@ brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)
     return find_changed(s, touched);
 }
 
-bool brc_contact_is_due(const brc_simulation *s)
-{
-    return s->contact && (s->contact->due || s->contact->always_whole);
-}
-int64_t brc_contact_lists(const brc_simulation *s)
-{
-    return s->contact ? s->contact->lists : 0;
-}
+BRC_READ(bool, brc_contact_is_due, s->contact && (s->contact->due || s->contact->always_whole))
+BRC_READ(int64_t, brc_contact_lists, s->contact ? s->contact->lists : 0)
 brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched)
 {
     return s->contact ? find_changed(s, touched) : BRC_OK;
@@ -472,10 +466,9 @@ brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to)
 static brc_status search(brc_simulation *s, bool carried)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     c->quiet = 0;
     c->searches += 1;
-    BRC_TRY(brc_pass_run(c->pass.extent, n));
+    BRC_TRY(brc_pass_run(c->pass.extent, s->layout->n_rows));
     if (c->n_pieces) BRC_TRY(brc_pass_run(c->pass.pieces, c->n_pieces));
     BRC_TRY(choose_skin(s));
     BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */

@@ -125,14 +125,8 @@ static int64_t ahead_steps(const brc_simulation *s, int64_t n)
     return !s->fracture && brc_effects_next_look(s) >= most ? 0 : most; /* without a look nobody asks */
 }
 
-bool brc_ahead_is_on(const brc_simulation *s)
-{
-    return s->ahead && s->ahead->on;
-}
-bool brc_ahead_is_whole(const brc_simulation *s)
-{
-    return brc_ahead_is_on(s) && is_of_beams(s) && !s->ahead->broke;
-}
+BRC_READ(bool, brc_ahead_is_on, s->ahead && s->ahead->on)
+BRC_READ(bool, brc_ahead_is_whole, brc_ahead_is_on(s) && is_of_beams(s) && !s->ahead->broke)
 
 static brc_status ahead_made(brc_simulation *s, struct brc_ahead **out)
 {

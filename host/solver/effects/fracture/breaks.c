@@ -4,10 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-bool brc_simulation_has_fracture(const brc_simulation *s)
-{
-    return s->fracture != NULL;
-}
+BRC_READ(bool, brc_simulation_has_fracture, s->fracture != NULL)
 
 static brc_status refuse(const brc_simulation *s)
 {
@@ -52,10 +49,7 @@ static brc_status read_entries(brc_simulation *s, entries *e)
 
 /* ---- moments ---- */
 
-int64_t brc_fracture_moment(const brc_simulation *s)
-{
-    return brc_simulation_total_steps(s) + s->fracture->n_loads;
-}
+BRC_READ(int64_t, brc_fracture_moment, brc_simulation_total_steps(s) + s->fracture->n_loads)
 
 brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
 {

@@ -165,10 +165,7 @@ static brc_status ask(brc_simulation *s, brc_status (*what)(brc_simulation *))
     return what ? what(s) : BRC_OK;
 }
 
-bool brc_cell_breaks_by_bond(const brc_simulation *s)
-{
-    return s->fracture && s->fracture->cells && !s->fracture->cells->by_element;
-}
+BRC_READ(bool, brc_cell_breaks_by_bond, s->fracture && s->fracture->cells && !s->fracture->cells->by_element)
 
 /* Bonds above a share of their limit are marked; *n: marks. */
 static brc_status mark_bonds(brc_simulation *s, double share, double *n)

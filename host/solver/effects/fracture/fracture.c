@@ -307,10 +307,7 @@ brc_status brc_fracture_ratio(brc_simulation *s, double *out)
     return BRC_OK;
 }
 
-const double *brc_fracture_limits(const brc_simulation *s)
-{
-    return s->fracture->limit;
-}
+BRC_READ(const double *, brc_fracture_limits, s->fracture->limit)
 
 brc_status brc_fracture_judged(brc_simulation *s, double *stress, double *record)
 {
@@ -337,12 +334,5 @@ brc_buffer *brc_fracture_lost_bonds(const brc_simulation *s)
     return s->fracture->gone ? s->fracture->gone : s->fracture->broken;
 }
 
-brc_buffer *brc_fracture_factors(const brc_simulation *s)
-{
-    return s->fracture->factor;
-}
-
-double brc_simulation_implied_fracture_energy(const brc_simulation *s)
-{
-    return s->fracture ? s->fracture->implied_energy : 0;
-}
+BRC_READ(brc_buffer *, brc_fracture_factors, s->fracture->factor)
+BRC_READ(double, brc_simulation_implied_fracture_energy, s->fracture ? s->fracture->implied_energy : 0)

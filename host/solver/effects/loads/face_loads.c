@@ -1,15 +1,8 @@
 /* Held faces and tractions in the passes of a model. */
 #include "loads_internal.h"
 
-bool brc_loads_on_faces(const brc_simulation *s)
-{
-    return s->loads->on_faces;
-}
-
-int32_t brc_loads_n_held_faces(const brc_simulation *s)
-{
-    return s->loads->held.n_faces;
-}
+BRC_READ(bool, brc_loads_on_faces, s->loads->on_faces)
+BRC_READ(int32_t, brc_loads_n_held_faces, s->loads->held.n_faces)
 
 brc_status brc_held_faces_run(brc_simulation *s, const brc_pass *pass, const brc_force_request *r, bool reactions)
 {

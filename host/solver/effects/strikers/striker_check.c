@@ -148,10 +148,7 @@ static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t pie
     }
 }
 
-double brc_striker_refused_depth(const brc_simulation *s)
-{
-    return refused_depth * s->domain->quality.mean_spacing;
-}
+BRC_READ(double, brc_striker_refused_depth, refused_depth * s->domain->quality.mean_spacing)
 double brc_striker_warned_depth(const brc_simulation *s)
 {
     return (s->domain->element_kind == BRC_ELEMENT_SPHERE ? warned_depth_of_spheres : warned_depth) *

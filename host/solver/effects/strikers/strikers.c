@@ -292,10 +292,7 @@ brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
 
 /* ---- asking ---- */
 
-int32_t brc_simulation_n_strikers(const brc_simulation *s)
-{
-    return s->strikers ? s->strikers->n : 0;
-}
+BRC_READ(int32_t, brc_simulation_n_strikers, s->strikers ? s->strikers->n : 0)
 const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker)
 {
     return s->strikers->body + striker;

@@ -37,10 +37,7 @@ static beam_softening *softening_of(const brc_simulation *s)
 {
     return brc_cbm_own_of(s)->softening;
 }
-bool brc_beam_softening_is_on(const brc_simulation *s)
-{
-    return softening_of(s) != NULL;
-}
+BRC_READ(bool, brc_beam_softening_is_on, softening_of(s) != NULL)
 
 static brc_status make_passes(brc_simulation *s, beam_softening *f)
 {

@@ -119,10 +119,7 @@ brc_status brc_dlsm_rebuild(brc_simulation *s, double *left)
     return brc_vector_sum(s, brc_cell_breaks_marked(s), s->n_groups, left);
 }
 
-bool brc_dlsm_screens(const brc_simulation *s)
-{
-    return brc_cell_breaks_by_bond(s) && !brc_softening_is_on(s);
-}
+BRC_READ(bool, brc_dlsm_screens, brc_cell_breaks_by_bond(s) && !brc_softening_is_on(s))
 
 brc_status brc_dlsm_screening_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {

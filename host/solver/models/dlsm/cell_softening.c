@@ -65,10 +65,7 @@ static softening_faces *faces_of(const brc_simulation *s)
 {
     return brc_dlsm_own_of(s)->softening;
 }
-bool brc_softening_is_on(const brc_simulation *s)
-{
-    return faces_of(s) != NULL;
-}
+BRC_READ(bool, brc_softening_is_on, faces_of(s) != NULL)
 
 static brc_status make_passes(brc_simulation *s, softening_faces *f)
 {
@@ -219,17 +216,15 @@ brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int 
 brc_status brc_softening_force(brc_simulation *s, brc_buffer *force)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
     if (!f || !f->any) return BRC_OK;
-    return BRC_RUN(f->take_force, n, {"force", BRC_BUF(force)});
+    return BRC_RUN(f->take_force, s->layout->n_rows, {"force", BRC_BUF(force)});
 }
 
 brc_status brc_softening_energy(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
     if (!f || !f->any) return BRC_OK;
-    return brc_pass_run(f->energy, n);
+    return brc_pass_run(f->energy, s->layout->n_rows);
 }
 
 /* ---- a step ---- */
@@ -248,8 +243,7 @@ static double friction_of(const brc_simulation *s)
 static brc_status sweep(brc_simulation *s, int k)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
-    return BRC_RUN(f->move, n, {"is_last", BRC_INT(k == N_SWEEPS - 1)}, {"stiffen", BRC_COEFF(stiffen)},
+    return BRC_RUN(f->move, s->layout->n_rows, {"is_last", BRC_INT(k == N_SWEEPS - 1)}, {"stiffen", BRC_COEFF(stiffen)},
                    {"steepest", BRC_COEFF(steepest)}, {"friction", BRC_COEFF(friction_of(s))},
                    {"retention", BRC_COEFF(retention)}, {"release", BRC_COEFF(release_of(s))});
 }
@@ -276,8 +270,7 @@ brc_status brc_softening_move(brc_simulation *s)
     if (!f || !f->any) return BRC_OK;
     const bool whole = brc_contact_is_due(s);
     if (!whole) BRC_TRY(list_around(s));
-    const int32_t n = s->layout->n_rows;
-    BRC_TRY(brc_pass_run(f->coast, n));
+    BRC_TRY(brc_pass_run(f->coast, s->layout->n_rows));
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
         BRC_TRY(s->model->fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k));
@@ -288,17 +281,15 @@ brc_status brc_softening_move(brc_simulation *s)
 static brc_status measure(brc_simulation *s, int book)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
-    return BRC_RUN(f->measure, n, {"book", BRC_INT(book)}, {"release", BRC_COEFF(release_of(s))});
+    return BRC_RUN(f->measure, s->layout->n_rows, {"book", BRC_INT(book)}, {"release", BRC_COEFF(release_of(s))});
 }
 
 brc_status brc_softening_recount(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
     if (!f) return BRC_OK;
     f->is_listed = false;
-    return brc_pass_run(f->count, n);
+    return brc_pass_run(f->count, s->layout->n_rows);
 }
 
 brc_status brc_softening_refresh(brc_simulation *s)

@@ -2,10 +2,7 @@
 #include "cell_softening.h"
 #include "dlsm_internal.h"
 
-bool brc_rims_energies_apart(const brc_simulation *s)
-{
-    return !brc_softening_is_on(s);
-}
+BRC_READ(bool, brc_rims_energies_apart, !brc_softening_is_on(s))
 
 bool brc_rims_may_add(const brc_simulation *s, const brc_rings *rings)
 {
