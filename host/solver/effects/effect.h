@@ -78,6 +78,12 @@ typedef struct brc_hooked {
     brc_status (*call)(struct brc_simulation *s, const brc_occasion *now);
     bool (*due)(const struct brc_simulation *s); /* NULL: always */
 } brc_hooked;
+/* Something to be hooked in that does one thing with what now says. */
+#define BRC_CALLED(name, does)                                                                                         \
+    static brc_status name(brc_simulation *s, const brc_occasion *now)                                                 \
+    {                                                                                                                  \
+        return does;                                                                                                   \
+    }
 
 /* A bound of the critical time step [s] beside that of the model's bonds. */
 typedef struct brc_effect_step_bound {

@@ -234,10 +234,7 @@ brc_status brc_guard_read(brc_simulation *s, bool several, const brc_ledger *led
                 isfinite(ledger->total) && ledger->total <= runaway * put_in ? ledger->closure : 0);
 }
 
-static brc_status read_hooked(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_guard_read(s, now->several, now->ledger);
-}
+BRC_CALLED(read_hooked, brc_guard_read(s, now->several, now->ledger))
 
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_STEPS, .plain = brc_guard_begin_stage},
                                     {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_CHECKS, .plain = brc_guard_step},

@@ -7,31 +7,12 @@
 extern const brc_field_table brc_contact_old_slot_fields, brc_contact_old_listed_fields;
 
 BRC_WANTED(in, w->scene->has_contact)
-static brc_status started(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_enable(s, now->ledger);
-}
-static brc_status turn(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_turn(s, now->kick, now->drift, now->extra * now->drift);
-}
-static brc_status press(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_acts(s, now->request) ? brc_contact_forces(s, now->request) : BRC_OK;
-}
-static brc_status energies(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_ledger(s, now->ledger);
-}
-static brc_status store(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_store_state(s, now->store);
-}
-
-static brc_status stretch(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_store_stretch(s, now->store);
-}
+BRC_CALLED(started, brc_contact_enable(s, now->ledger))
+BRC_CALLED(turn, brc_contact_turn(s, now->kick, now->drift, now->extra * now->drift))
+BRC_CALLED(press, brc_contact_acts(s, now->request) ? brc_contact_forces(s, now->request) : BRC_OK)
+BRC_CALLED(energies, brc_contact_ledger(s, now->ledger))
+BRC_CALLED(store, brc_contact_store_state(s, now->store))
+BRC_CALLED(stretch, brc_contact_store_stretch(s, now->store))
 static brc_status kicked(brc_simulation *s, const brc_occasion *now)
 {
     brc_contact_state *c = s->contact;

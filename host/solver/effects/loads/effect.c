@@ -55,26 +55,11 @@ static brc_status constrain(brc_simulation *s, const brc_occasion *now)
     if (now->vector) BRC_TRY(brc_loads_zero_imposed(s, now->vector));
     return now->rotations ? brc_loads_zero_turned(s, now->rotations) : BRC_OK;
 }
-static brc_status store(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_loads_store(s, now->store);
-}
-static brc_status place(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_loads_prescribe(s, now->t);
-}
-static brc_status open_step(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_turns_begin_step(s, now->t, now->until);
-}
-static brc_status close_step(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_loads_impose_velocity(s, now->t);
-}
-static brc_status push(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_pushes_apply(s, now->request);
-}
+BRC_CALLED(store, brc_loads_store(s, now->store))
+BRC_CALLED(place, brc_loads_prescribe(s, now->t))
+BRC_CALLED(open_step, brc_turns_begin_step(s, now->t, now->until))
+BRC_CALLED(close_step, brc_loads_impose_velocity(s, now->t))
+BRC_CALLED(push, brc_pushes_apply(s, now->request))
 static brc_status book(brc_simulation *s, const brc_occasion *now)
 {
     BRC_TRY(brc_imposed_book(s, now->request));
