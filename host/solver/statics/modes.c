@@ -288,16 +288,13 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
 {
     const int m = t->m, most = 3 * m;
     brc_simulation *s = t->s;
-    double **u = NULL, **ku = NULL, *k_small = NULL, *g_small = NULL, *coefficients = NULL, *before = NULL;
-    unsigned char *active = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ku, most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &k_small, most * most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &g_small, most * most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &coefficients, m * most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &before, m, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &active, m, "modes"));
+    BRC_LOCAL(s->context, most, double *, u, "modes");
+    BRC_LOCAL(s->context, most, double *, ku, "modes");
+    BRC_LOCAL(s->context, most * most, double, k_small, "modes");
+    BRC_LOCAL(s->context, most * most, double, g_small, "modes");
+    BRC_LOCAL(s->context, m * most, double, coefficients, "modes");
+    BRC_LOCAL(s->context, m, double, before, "modes");
+    BRC_LOCAL(s->context, m, unsigned char, active, "modes");
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         int count = 0;
         for (int k = 0; k < m; ++k, ++count)
@@ -306,10 +303,10 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
             if (active[k]) u[count] = t->w + k * t->n, ku[count++] = t->kw + k * t->n;
         for (int k = 0; k < m; ++k)
             if (active[k] && round > 1) u[count] = t->p + k * t->n, ku[count++] = t->kp + k * t->n;
-        BRC_TRY_OR(cleanup, gram_matrix(t, count, u, ku, NULL, k_small));
-        BRC_TRY_OR(cleanup, gram_matrix(t, count, u, u, t->mass, g_small));
-        BRC_TRY_OR(cleanup, brc_rayleigh_ritz(t->s->context, t->s->model->statics->symmetric, t->m, count, k_small,
-                                              g_small, values, coefficients));
+        BRC_TRY(gram_matrix(t, count, u, ku, NULL, k_small));
+        BRC_TRY(gram_matrix(t, count, u, u, t->mass, g_small));
+        BRC_TRY(brc_rayleigh_ritz(t->s->context, t->s->model->statics->symmetric, t->m, count, k_small, g_small, values,
+                                  coefficients));
         if (count > m) { /* directions: the part of the new vectors outside the old ones */
             combine(t, count, m, u, coefficients, t->fresh);
             combine(t, count, m, ku, coefficients, t->k_fresh);
@@ -334,32 +331,21 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         const double worst = residuals(t, values, wanted, active);
         brc_progress_update(progress, round + 1);
         s->statics->report.iterations = round + 1;
-        if (worst < settled) goto cleanup;
+        if (worst < settled) return BRC_OK;
         if ((round + 1) % WATCH == 0 &&
             change_since(values, before, m - GUARD_VECTORS) < steady[!s->model->statics->symmetric])
-            goto cleanup;
-        if (brc_trial_is_over(s)) goto cleanup;
-        if (brc_simulation_is_to_stop(s)) {
-            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
-            goto cleanup;
-        }
-        if (!memchr(active, 1, (size_t)m)) goto cleanup;
+            return BRC_OK;
+        if (brc_trial_is_over(s)) return BRC_OK;
+        if (brc_simulation_is_to_stop(s))
+            return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
+        if (!memchr(active, 1, (size_t)m)) return BRC_OK;
         for (int k = 0; k < m; ++k) {
             if (!active[k]) continue;
-            BRC_TRY_OR(cleanup, precondition(t, t->w + k * t->n));
-            BRC_TRY_OR(cleanup, multiply(t, t->w + k * t->n, t->kw + k * t->n));
+            BRC_TRY(precondition(t, t->w + k * t->n));
+            BRC_TRY(multiply(t, t->w + k * t->n, t->kw + k * t->n));
         }
     }
-    status = BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the modes did not settle in %d rounds", MOST_ROUNDS);
-cleanup:
-    brc_memory_free(u);
-    brc_memory_free(ku);
-    brc_memory_free(k_small);
-    brc_memory_free(g_small);
-    brc_memory_free(coefficients);
-    brc_memory_free(before);
-    brc_memory_free(active);
-    return status;
+    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the modes did not settle in %d rounds", MOST_ROUNDS);
 }
 
 brc_status brc_modes_run(brc_simulation *s)

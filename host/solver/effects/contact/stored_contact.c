@@ -41,29 +41,25 @@ static brc_status walk_ids(brc_simulation *s, brc_state_store *store, const pair
 {
     const int64_t n_pairs = s->contact->now.n_pairs;
     int64_t n = n_pairs;
-    int32_t *ids = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ids, 2 * n, "pairs"));
+    BRC_LOCAL(s->context, 2 * n, int32_t, ids, "pairs");
     for (int64_t p = 0; p < n; ++p)
         memcpy(ids + 2 * p, pair[p].id, sizeof pair[p].id);
-    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "contact.pairs", BRC_STORED_INT32, 2, &n, (void **)&ids));
+    BRC_TRY(brc_store_array(s->context, store, "contact.pairs", BRC_STORED_INT32, 2, &n, (void **)&ids));
     int64_t like = 0; /* pairs up to the first that differs */
     while (like < n && like < n_pairs && memcmp(ids + 2 * like, pair[like].id, sizeof pair[like].id) == 0)
         ++like;
     if (n != n_pairs)
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "contact.pairs: the history that was kept is of %lld pairs, and the surfaces near each other "
-                          "are %lld: friction would be lost",
-                          (long long)n, (long long)n_pairs);
-    else if (like < n)
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "contact.pairs: the history that was kept has elements %d and %d in row %lld, where surfaces "
-                          "of %d and %d are near each other: friction would be lost",
-                          (int)ids[2 * like], (int)ids[2 * like + 1], (long long)like, (int)pair[like].id[0],
-                          (int)pair[like].id[1]);
-cleanup:
-    brc_memory_free(ids);
-    return status;
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "contact.pairs: the history that was kept is of %lld pairs, and the surfaces near each other "
+                        "are %lld: friction would be lost",
+                        (long long)n, (long long)n_pairs);
+    if (like < n)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "contact.pairs: the history that was kept has elements %d and %d in row %lld, where surfaces "
+                        "of %d and %d are near each other: friction would be lost",
+                        (int)ids[2 * like], (int)ids[2 * like + 1], (long long)like, (int)pair[like].id[0],
+                        (int)pair[like].id[1]);
+    return BRC_OK;
 }
 
 static brc_status walk_pairs(brc_simulation *s, brc_state_store *store)

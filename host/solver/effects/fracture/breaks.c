@@ -189,22 +189,15 @@ brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out)
 brc_status brc_fracture_whole_at(brc_simulation *s, int64_t moment, uint8_t **out)
 {
     const int64_t n_entries = s->layout->n_slots * s->layout->slice;
-    int32_t *step = NULL;
-    uint8_t *whole = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &step, n_entries, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, s->domain->n_half_edges, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
+    *out = NULL;
+    BRC_LOCAL(s->context, n_entries, int32_t, step, "unbroken bonds");
+    BRC_LOCAL(s->context, s->domain->n_half_edges, uint8_t, whole, "unbroken bonds");
+    BRC_TRY(brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k)
         if (s->layout->half_edge[k] >= 0) whole[s->layout->half_edge[k]] = step[k] == 0 || step[k] > moment;
-cleanup:
-    brc_memory_free(step);
-    if (status != BRC_OK) {
-        brc_memory_free(whole);
-        whole = NULL;
-    }
     *out = whole;
-    return status;
+    whole = NULL;
+    return BRC_OK;
 }
 
 brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)

@@ -76,19 +76,14 @@ static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond
 brc_status brc_fracture_bound(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
-    brc_strengths strengths;
-    double *weakest = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_strengths_free) brc_strengths strengths = {0};
+    BRC_FREED double *weakest = NULL;
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_breaks.c */
     f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
-    if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));
-    if (softens) BRC_TRY_OR(cleanup, s->model->cohesion->create(s, &strengths));
-    BRC_TRY_OR(cleanup, upload_bounds(s, weakest));
-cleanup:
-    brc_memory_free(weakest);
-    brc_strengths_free(&strengths);
-    return status;
+    if (f->weighted) BRC_TRY(upload_factors(s, strengths.factor, &weakest));
+    if (softens) BRC_TRY(s->model->cohesion->create(s, &strengths));
+    return upload_bounds(s, weakest);
 }
 
 bool brc_wants_lost_beams(const brc_wants *w)

@@ -136,21 +136,13 @@ brc_status brc_simulation_set_motion(brc_simulation *s, int32_t set, brc_fragmen
 brc_status brc_simulation_fragment_list(brc_simulation *s, int64_t *n, brc_fragment **out)
 {
     const int64_t n_elements = s->domain->n_elements;
-    elements e = {0};
-    brc_fragment *list = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(free_elements) elements e = {0};
     *n = 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &e.fragment, n_elements, "fragments"));
-    BRC_TRY_OR(cleanup, brc_simulation_fragments(s, e.fragment, n));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &list, *n, "fragments"));
-    BRC_TRY_OR(cleanup, read_elements(s, &e));
-    sum_up(&e, n_elements, *n, list);
-cleanup:
-    free_elements(&e);
-    if (status != BRC_OK) {
-        brc_memory_free(list);
-        list = NULL;
-    }
-    *out = list;
-    return status;
+    *out = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &e.fragment, n_elements, "fragments"));
+    BRC_TRY(brc_simulation_fragments(s, e.fragment, n));
+    BRC_TRY(read_elements(s, &e));
+    BRC_TRY(BRC_ALLOCATE(s->context, out, *n, "fragments"));
+    sum_up(&e, n_elements, *n, *out);
+    return BRC_OK;
 }

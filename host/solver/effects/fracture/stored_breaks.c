@@ -74,30 +74,24 @@ static brc_status walk_moments(brc_simulation *s, brc_state_store *store)
 {
     enum { N = 5 };
     brc_breaking *f = s->fracture;
-    double *spans = NULL;
     int64_t n = f->n_spans;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spans, N * n, "stages with fracture"));
+    BRC_LOCAL(s->context, N * n, double, spans, "stages with fracture");
     for (int64_t k = 0; k < n; ++k) {
         const brc_break_span *span = &f->spans[k];
         const double row[N] = {(double)span->first_step, (double)span->first_load, span->first_time, span->time_step,
                                span->stage};
         memcpy(spans + N * k, row, sizeof row);
     }
-    BRC_TRY_OR(cleanup,
-               brc_store_array(s->context, store, "fracture.stages", BRC_STORED_DOUBLE, N, &n, (void **)&spans));
-    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.loads", BRC_STORED_DOUBLE, 1, &f->n_loads,
-                                        (void **)&f->load));
-    if (!store->loading) goto cleanup;
-    BRC_TRY_OR(cleanup, brc_memory_resize(s->context, (void **)&f->spans, n, sizeof *f->spans, "stages with fracture"));
+    BRC_TRY(brc_store_array(s->context, store, "fracture.stages", BRC_STORED_DOUBLE, N, &n, (void **)&spans));
+    BRC_TRY(brc_store_array(s->context, store, "fracture.loads", BRC_STORED_DOUBLE, 1, &f->n_loads, (void **)&f->load));
+    if (!store->loading) return BRC_OK;
+    BRC_TRY(brc_memory_resize(s->context, (void **)&f->spans, n, sizeof *f->spans, "stages with fracture"));
     f->n_spans = (int)n;
     for (int64_t k = 0; k < n; ++k) {
         const double *row = spans + N * k;
         f->spans[k] = (brc_break_span){(int64_t)row[0], (int64_t)row[1], row[2], row[3], (int32_t)row[4]};
     }
-cleanup:
-    brc_memory_free(spans);
-    return status;
+    return BRC_OK;
 }
 
 /* Arrays of both models and of the criterion. A broken beam has no length, and leaves the volume that an element's

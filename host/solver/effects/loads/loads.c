@@ -21,20 +21,16 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     const brc_set *set = brc_load_find_named(s, stage, load, BRC_SET_FACES, &status);
     if (!set) return status;
     int64_t count = 0;
-    brc_loaded_face *loaded = NULL;
-    brc_load_member *items = NULL;
-    int32_t *element = NULL, *place = NULL, n = 0;
-    double *total = NULL, *moment = NULL;
-    BRC_TRY_OR(cleanup, brc_loaded_faces(s->context, s->scene, d, set, &loaded, &count));
-    if (count == 0) { /* of a part without whole faces of the set, those that its region cuts */
-        status = brc_load_refuse_empty(s, stage, load);
-        goto cleanup;
-    }
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &items, count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 2 * count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &total, 3 * count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &moment, 9 * count, "traction"));
+    BRC_FREED brc_loaded_face *loaded = NULL;
+    int32_t n = 0;
+    BRC_TRY(brc_loaded_faces(s->context, s->scene, d, set, &loaded, &count));
+    if (count == 0) /* of a part without whole faces of the set, those that its region cuts */
+        return brc_load_refuse_empty(s, stage, load);
+    BRC_LOCAL(s->context, count, brc_load_member, items, "traction");
+    BRC_LOCAL(s->context, count, int32_t, element, "traction");
+    BRC_LOCAL(s->context, 2 * count, int32_t, place, "traction");
+    BRC_LOCAL(s->context, 3 * count, double, total, "traction");
+    BRC_LOCAL(s->context, 9 * count, double, moment, "traction");
     for (int64_t m = 0; m < count; ++m)
         items[m] = (brc_load_member){s->layout->row_of_element[d->free_element[loaded[m].face]], (int32_t)m};
     qsort(items, (size_t)count, sizeof *items, brc_load_compare_members);
@@ -63,19 +59,11 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
                 moment[9 * (n - 1) + 3 * c + k] += push[c] * (face->centroid[k] - d->position[3 * (int64_t)e + k]);
     }
     *out = (brc_traction_load){.load = l, .n = n};
-    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_traction_fields, n, out));
-    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
-    BRC_TRY_OR(cleanup, brc_upload_int(out->place, place, 2 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->total, total, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->moment, moment, 9 * (int64_t)n));
-cleanup:
-    brc_memory_free(loaded);
-    brc_memory_free(items);
-    brc_memory_free(element);
-    brc_memory_free(place);
-    brc_memory_free(total);
-    brc_memory_free(moment);
-    return status;
+    BRC_TRY(brc_load_fields_create(s, &brc_traction_fields, n, out));
+    BRC_TRY(brc_upload_int(out->element, element, n));
+    BRC_TRY(brc_upload_int(out->place, place, 2 * (int64_t)n));
+    BRC_TRY(brc_upload_coeff(s, out->total, total, 3 * (int64_t)n));
+    return brc_upload_coeff(s, out->moment, moment, 9 * (int64_t)n);
 }
 
 static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const int32_t *row, const int32_t *bits,
