@@ -37,7 +37,7 @@ typedef struct mode_space {
     double *blocks;                                     /* [n_rows][6]; NULL: multigrid */
     brc_multigrid *multigrid;
     brc_pieces pieces;    /* whose free motions multigrid would make large */
-    unsigned char *fixed; /* [n] 1: imposed */
+    unsigned char *fixed; /* [n] 1: prescribed */
     brc_buffer *in, *out, *orientation, *torque;
 } mode_space;
 

@@ -57,7 +57,7 @@ brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, b
                                                        .torque = brc_torque_of(s),
                                                        .finite = finite,
                                                        .t = brc_loads_time(s)}));
-    /* the residual of the free components; reactions of imposed elements were read just before */
+    /* the residual of the free components; reactions of prescribed elements were read just before */
     BRC_TRY(brc_constrain(s, brc_force_of(s), NULL));
     BRC_TRY(balance_free_body(s, finite));
     double square;

@@ -62,12 +62,12 @@ void brc_loads_each_prescribed(const brc_simulation *s, brc_prescribed_call call
 {
     const brc_loads *loads = s->loads;
     const brc_held_faces *h = &loads->held;
-    for (int32_t i = 0; i < loads->n_imposed; ++i)
-        for (int32_t k = 0; k < loads->imposed[i].n; ++k)
-            call(self, &(brc_prescribed){.element = loads->imposed[i].element_id[k],
+    for (int32_t i = 0; i < loads->n_prescribed; ++i)
+        for (int32_t k = 0; k < loads->prescribed[i].n; ++k)
+            call(self, &(brc_prescribed){.element = loads->prescribed[i].element_id[k],
                                          .face = -1,
-                                         .motion = loads->imposed[i].component_bits,
-                                         .by_load = loads->imposed[i].load >= 0});
+                                         .motion = loads->prescribed[i].component_bits,
+                                         .by_load = loads->prescribed[i].load >= 0});
     for (int64_t f = 0; h->n_faces > 0 && f < s->domain->n_free_faces; ++f)
         if (h->index_of_free_face[f] >= 0)
             call(self, &(brc_prescribed){.element = s->domain->free_element[f],

@@ -48,8 +48,8 @@ static const brc_field_row traction_rows[] = {
 BRC_FIELD_TABLE(brc_traction_fields, "tractions", BRC_LIFE_STAGE, NULL, traction_rows);
 
 #undef AT
-#define AT(member) BRC_FIELD_AT(brc_imposed_load, member)
-static const brc_field_row imposed_rows[] = {
+#define AT(member) BRC_FIELD_AT(brc_prescribed_load, member)
+static const brc_field_row prescribed_rows[] = {
     BRC_FIELD(element, brc_each_listed, 1, INT, NULL, "imposed elements", "-"),
     BRC_FIELD(component, brc_each_listed, 3, COEFF, NULL, "imposed elements", "-"),
     BRC_KEPT_FIELD(base, brc_each_listed, 3, STATE, NULL, "imposed elements", "m", "base", BRC_KEEP_ALL),
@@ -61,7 +61,7 @@ static const brc_field_row imposed_rows[] = {
                    "last_reaction", BRC_KEEP_ALL),
     BRC_KEPT_FIELD(work, brc_each_listed, 1, STATE, NULL, "work of imposed elements", "J", "work", BRC_KEEP_ALL),
 };
-BRC_FIELD_TABLE(brc_imposed_fields, "imposed elements", BRC_LIFE_STAGE, NULL, imposed_rows);
+BRC_FIELD_TABLE(brc_prescribed_fields, "imposed elements", BRC_LIFE_STAGE, NULL, prescribed_rows);
 
 #undef AT
 #define AT(member) BRC_FIELD_AT(brc_push_load, member)

@@ -1,5 +1,5 @@
-/* The loads of one stage: tractions, imposed elements, and what the other files of this folder make. Lists are sorted
- * by storage row, then by id. */
+/* The loads of one stage: tractions, prescribed elements, and what the other files of this folder make. Lists are
+ * sorted by storage row, then by id. */
 #include "loads_internal.h"
 #include "../../core/loaded_faces.h"
 #include <math.h>
@@ -66,18 +66,18 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     return brc_upload_coeff(s, out->moment, moment, 9 * (int64_t)n);
 }
 
-static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const int32_t *row, const int32_t *bits,
-                                 const double *base)
+static brc_status upload_prescribed(brc_simulation *s, brc_prescribed_load *out, const int32_t *row,
+                                    const int32_t *bits, const double *base)
 {
-    BRC_TRY(brc_load_fields_create(s, &brc_imposed_fields, out->n, out));
+    BRC_TRY(brc_load_fields_create(s, &brc_prescribed_fields, out->n, out));
     BRC_TRY(brc_upload_int(out->element, row, out->n));
     BRC_TRY(brc_load_upload_components(s, out->component, bits, out->n));
     return brc_upload_state(s, out->base, base, 3 * (int64_t)out->n);
 }
 
 /* Imposed elements: the members of an element set, or the owners of a face set. taken: bits per element. */
-static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken,
-                                 brc_imposed_load *out)
+static brc_status create_prescribed(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken,
+                                    brc_prescribed_load *out)
 {
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
@@ -107,19 +107,19 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
             base[3 * (int64_t)i + c] = now[3 * e + c];
     }
     if (twice) return brc_loads_refuse_twice(s, stage, load, twice);
-    BRC_TRY(upload_imposed(s, out, element, flag, base));
+    BRC_TRY(upload_prescribed(s, out, element, flag, base));
     return brc_upload_state(s, out->direction, direction, 3 * (int64_t)n);
 }
 
-const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed)
+const brc_load *brc_prescribed_of(const brc_stage *stage, const brc_prescribed_load *prescribed)
 {
     static const brc_load still = {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT};
-    return imposed->load < 0 ? &still : stage->loads + imposed->load;
+    return prescribed->load < 0 ? &still : stage->loads + prescribed->load;
 }
 
 /* Elements that no beam holds stay where they are, in the components that no load of the stage prescribes. */
-static brc_status create_still(brc_simulation *s, const brc_stage *stage, const int32_t *taken, brc_imposed_load *out,
-                               bool *any)
+static brc_status create_still(brc_simulation *s, const brc_stage *stage, const int32_t *taken,
+                               brc_prescribed_load *out, bool *any)
 {
     const brc_domain *d = s->domain;
     int32_t n = 0;
@@ -131,7 +131,7 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
         n += d->row_start[e + 1] == d->row_start[e];
     if (n == 0) return BRC_OK;
     *any = true;
-    *out = (brc_imposed_load){.load = -1, .n = n, .component_bits = 7};
+    *out = (brc_prescribed_load){.load = -1, .n = n, .component_bits = 7};
     BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "isolated elements"));
     BRC_LOCAL(s->context, n, int32_t, element, "isolated elements");
     BRC_LOCAL(s->context, n, int32_t, flag, "isolated elements");
@@ -149,7 +149,7 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
             base[3 * (int64_t)n + c] = now[3 * (int64_t)e + c];
         ++n;
     }
-    return upload_imposed(s, out, element, flag, base);
+    return upload_prescribed(s, out, element, flag, base);
 }
 
 brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out)
@@ -161,12 +161,12 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->pushes, stage->n_loads, "forces on elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->turns, stage->n_loads, "turned elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->tractions, stage->n_loads, "tractions"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->imposed, stage->n_loads + 1, "imposed elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->prescribed, stage->n_loads + 1, "imposed elements"));
     for (int32_t l = 0; l < stage->n_loads; ++l) { /* go on after an error: all in one pass */
         const brc_load *load = stage->loads + l;
         status = BRC_OK;
         if (is_element_motion(load)) {
-            status = create_imposed(s, stage, l, taken, out->imposed + out->n_imposed++);
+            status = create_prescribed(s, stage, l, taken, out->prescribed + out->n_prescribed++);
         } else if (load->kind == BRC_LOAD_ELEMENT_FORCE) {
             status = brc_push_create(s, stage, l, out->pushes + out->n_pushes++);
         } else if (load->kind == BRC_LOAD_ELEMENT_ROTATION) {
@@ -184,8 +184,8 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
     }
     if (first == BRC_OK) {
         bool any;
-        status = create_still(s, stage, taken, out->imposed + out->n_imposed, &any);
-        out->n_imposed += any;
+        status = create_still(s, stage, taken, out->prescribed + out->n_prescribed, &any);
+        out->n_prescribed += any;
     }
     out->on_faces = out->held.n_faces > 0 || out->n_tractions > 0;
     brc_set_face_loads(s, out->on_faces);
@@ -207,12 +207,12 @@ void brc_loads_free(brc_loads *loads)
     brc_memory_free(h->loads);
     for (int32_t i = 0; i < loads->n_tractions; ++i)
         brc_fields_free(&brc_traction_fields, loads->tractions + i);
-    for (int32_t i = 0; i < loads->n_imposed; ++i) {
-        brc_memory_free(loads->imposed[i].element_id);
-        brc_fields_free(&brc_imposed_fields, loads->imposed + i);
+    for (int32_t i = 0; i < loads->n_prescribed; ++i) {
+        brc_memory_free(loads->prescribed[i].element_id);
+        brc_fields_free(&brc_prescribed_fields, loads->prescribed + i);
     }
     brc_memory_free(loads->tractions);
-    brc_memory_free(loads->imposed);
+    brc_memory_free(loads->prescribed);
     brc_element_loads_free(loads);
     *loads = (brc_loads){.pass = loads->pass, .work_before = loads->work_before};
 }

@@ -48,7 +48,7 @@ static brc_status element_reactions(brc_simulation *s, const brc_set *set, react
     const brc_domain *d = s->domain;
     const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
     BRC_FREED double *u = NULL;
-    if (s->loads->n_imposed + s->loads->n_turns == 0) return BRC_OK;
+    if (s->loads->n_prescribed + s->loads->n_turns == 0) return BRC_OK;
     BRC_LOCAL(s->context, 3 * d->n_elements, double, values, "reactions");
     BRC_LOCAL(s->context, d->n_elements, bool, member, "members");
     for (int64_t m = 0; m < set->n_members; ++m)
@@ -57,8 +57,8 @@ static brc_status element_reactions(brc_simulation *s, const brc_set *set, react
         BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "reactions"));
         BRC_TRY(brc_state_from_rows(s, brc_displacement_of(s), u, 3));
     }
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
-        const brc_imposed_load *m = s->loads->imposed + i;
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i) {
+        const brc_prescribed_load *m = s->loads->prescribed + i;
         BRC_TRY(brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
         for (int32_t k = 0; k < m->n; ++k) {
             const int64_t e = m->element_id[k];

@@ -46,10 +46,10 @@ static brc_status walk_traction(brc_simulation *s, brc_state_store *store, int32
     return walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, element);
 }
 
-static brc_status walk_imposed(brc_simulation *s, brc_state_store *store, int32_t i)
+static brc_status walk_prescribed(brc_simulation *s, brc_state_store *store, int32_t i)
 {
-    brc_imposed_load *m = s->loads->imposed + i;
-    BRC_TRY(walk_list(s, store, "imposed", i, &brc_imposed_fields, m, m->n, m->element_id));
+    brc_prescribed_load *m = s->loads->prescribed + i;
+    BRC_TRY(walk_list(s, store, "imposed", i, &brc_prescribed_fields, m, m->n, m->element_id));
     return walk_number(store, "imposed", i, "last_rate", &m->last_rate);
 }
 
@@ -76,8 +76,8 @@ brc_status brc_loads_store(brc_simulation *s, brc_state_store *store)
     BRC_TRY(walk_held(s, store));
     for (int32_t i = 0; i < s->loads->n_tractions; ++i)
         BRC_TRY(walk_traction(s, store, i));
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i)
-        BRC_TRY(walk_imposed(s, store, i));
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i)
+        BRC_TRY(walk_prescribed(s, store, i));
     for (int32_t i = 0; i < s->loads->n_pushes; ++i)
         BRC_TRY(walk_push(s, store, i));
     for (int32_t i = 0; i < s->loads->n_turns; ++i)
