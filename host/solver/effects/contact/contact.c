@@ -150,7 +150,7 @@ brc_status brc_contact_enable(brc_simulation *s, const brc_ledger *ledger)
                     brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
 }
 
-BRC_READ(int64_t, brc_contact_next_look, s->contact->due ? 0 : s->contact->quiet)
+BRC_READ(int64_t, brc_contact_next_probe, s->contact->due ? 0 : s->contact->quiet)
 
 brc_status brc_contact_follow(brc_simulation *s)
 {
@@ -161,8 +161,8 @@ brc_status brc_contact_follow(brc_simulation *s)
         c->quiet -= 1;
         return BRC_OK;
     }
-    if (brc_ahead_is_on(s)) return brc_contact_put_off_look(s);
-    BRC_TRY(brc_contact_look(s, &due, &past));
+    if (brc_ahead_is_on(s)) return brc_contact_put_off_probe(s);
+    BRC_TRY(brc_contact_probe(s, &due, &past));
     return due ? search_soon(s) : BRC_OK;
 }
 
@@ -295,7 +295,7 @@ brc_status brc_contact_settle(brc_simulation *s)
     bool due, past;
     if (!c) return BRC_OK;
     BRC_TRY(brc_contact_pose(s));
-    BRC_TRY(brc_contact_look(s, &due, &past));
+    BRC_TRY(brc_contact_probe(s, &due, &past));
     return past || c->always_whole ? brc_contact_search_more(s, touched(s)) : BRC_OK;
 }
 

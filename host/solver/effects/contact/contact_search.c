@@ -108,13 +108,13 @@ static brc_status take_survey(brc_simulation *s, survey *out)
     return read_survey(s, s->contact->moved, s->contact->n_pieces, out);
 }
 
-/* What a survey says: steps until the next look; due, past as brc_contact_look. pushed: acceleration of strikers. */
+/* What a survey says: steps until the next probe; due, past as brc_contact_probe. pushed: acceleration of strikers. */
 static int64_t judge(const brc_simulation *s, const survey *now, double pushed, bool *due, bool *past)
 {
     const brc_contact_state *c = s->contact;
     const double dt = brc_simulation_time_step(s).value;
-    /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and
-     * of the way to the next piece of a striker. */
+    /* Twice the present speed and acceleration must not use up what is left before the next probe: of half the skin,
+     * and of the way to the next piece of a striker. */
     const double left = 0.5 * c->skin - now->element[0], v = 2 * now->element[1] * dt,
                  a = 2 * sqrt(now->element[2]) * dt * dt;
     const double clear = -now->element[3] - now->piece[0], v_piece = 2 * (now->element[4] + sqrt(now->piece[1])) * dt,
@@ -142,7 +142,7 @@ static void trust(brc_contact_state *c, bool calm)
     c->n_trusted = !calm ? 0 : more < MOST_TRUSTED ? more : MOST_TRUSTED;
 }
 
-brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
+brc_status brc_contact_probe(brc_simulation *s, bool *due, bool *past)
 {
     brc_contact_state *c = s->contact;
     survey now;
@@ -152,7 +152,7 @@ brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
     return BRC_OK;
 }
 
-/* ---- looks that are put off (../fracture/ahead.h) ---- */
+/* ---- probes that are put off (../fracture/ahead.h) ---- */
 
 int64_t brc_contact_quiet_steps(const brc_simulation *s)
 {
@@ -163,18 +163,18 @@ int64_t brc_contact_quiet_steps(const brc_simulation *s)
 
 void brc_contact_begin_stretch(brc_simulation *s)
 {
-    s->contact->n_looks = 0;
+    s->contact->n_probes = 0;
     s->contact->most_pushed = 0;
 }
 
 /* What would allow MOST_QUIET steps with the largest of every column allows as many with each. */
-brc_status brc_contact_put_off_look(brc_simulation *s)
+brc_status brc_contact_put_off_probe(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const int64_t bytes = brc_buffer_bytes(c->moved);
     BRC_TRY(enqueue_survey(s));
     if (!c->most_moved) BRC_TRY(brc_buffer_create(s->device, &c->most_moved, bytes, "moves of the looks so far"));
-    if (c->n_looks++ == 0)
+    if (c->n_probes++ == 0)
         BRC_TRY(brc_buffer_copy(c->most_moved, c->moved, bytes));
     else
         BRC_TRY(brc_pass_run(c->pass.most, bytes / brc_precision_state_bytes(brc_device_get_precision(s->device))));
@@ -189,7 +189,7 @@ brc_status brc_contact_end_stretch(brc_simulation *s, bool *stands)
     survey most;
     bool due, past;
     *stands = true;
-    if (c->n_looks == 0) return BRC_OK;
+    if (c->n_probes == 0) return BRC_OK;
     BRC_TRY(read_survey(s, c->most_moved, c->n_pieces, &most));
     *stands = judge(s, &most, c->most_pushed, &due, &past) == MOST_QUIET && !due;
     trust(c, *stands);

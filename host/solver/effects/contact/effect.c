@@ -28,7 +28,7 @@ static bool exposes(const brc_scene *scene) /* any element may come to be pushed
 static const brc_effect_step_bound step_bound = {brc_contact_critical_step, brc_contact_check_step, "auto: contact",
                                                  "auto: power iteration and contact"};
 
-static const brc_effect_looks looks = {brc_contact_next_look, brc_contact_begin_stretch, brc_contact_end_stretch};
+static const brc_effect_probes probes = {brc_contact_next_probe, brc_contact_begin_stretch, brc_contact_end_stretch};
 static void release(brc_simulation *s)
 {
     brc_ahead_free(s);
@@ -68,7 +68,7 @@ const brc_effect brc_contact_effect = {.name = "contact",
                                        .follows_surfaces = true,
                                        .step_bound = &step_bound,
                                        .ahead = &brc_steps_ahead,
-                                       .looks = &looks,
+                                       .probes = &probes,
                                        .quiet_steps = brc_contact_quiet_steps,
                                        .fields = fields,
                                        .create = brc_contact_create,

@@ -76,7 +76,7 @@ static brc_status walk_pairs(brc_simulation *s, brc_state_store *store)
         s, store, &(brc_kept_fields){.table = &brc_contact_pair_fields, .owner = l, .n = l->n_pairs, .id = rank});
 }
 
-/* Of dlsm the look at how far surfaces have moved reads the gradients of the step before. */
+/* Of dlsm the probe of how far surfaces have moved reads the gradients of the step before. */
 static brc_status walk_arrays(brc_simulation *s, brc_state_store *store)
 {
     brc_contact_state *c = s->contact;

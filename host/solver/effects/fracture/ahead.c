@@ -122,7 +122,7 @@ static int64_t ahead_steps(const brc_simulation *s, int64_t n)
     if (quiet < most) most = quiet;
     if (most < BRC_AHEAD_FEWEST || n < 2 || !may(s)) return 0;
     if (n < most) most = n;
-    return !s->fracture && brc_effects_next_look(s) >= most ? 0 : most; /* without a look nobody asks */
+    return !s->fracture && brc_effects_next_probe(s) >= most ? 0 : most; /* without a probe nobody asks */
 }
 
 BRC_READ(bool, brc_ahead_is_on, s->ahead && s->ahead->on)
@@ -153,7 +153,7 @@ static brc_status ahead_begin(brc_simulation *s)
         BRC_TRY(brc_buffer_fill_zero(a->found));
     }
     BRC_TRY(walk(s, false));
-    brc_effects_begin_looks(s);
+    brc_effects_begin_probes(s);
     a->first = brc_simulation_step(s);
     a->open = brc_half_kick_is_missing(s);
     a->on = true;
@@ -182,7 +182,7 @@ static brc_status ahead_end(brc_simulation *s, bool *stands)
     bool seen = true;
     a->on = false;
     BRC_TRY(count_stretch(s, &n));
-    BRC_TRY(brc_effects_end_looks(s, &seen));
+    BRC_TRY(brc_effects_end_probes(s, &seen));
     *stands = !(n > 0) && seen;
     if (*stands) {
         if (!c) a->calm += last - a->first;

@@ -13,7 +13,7 @@ struct brc_closed_faces {
     brc_pass *keep, *probe_pass, *follow, *press, *flux, *force, *energy, *again, *delta_pass;
     brc_buffer *closed, *spring, *overlap, *slide; /* [n_slots][C], slide [n_slots][3][C], NULL without friction */
     brc_buffer *place;                             /* [n_rows][3] */
-    brc_buffer *next, *presses, *look, *near;      /* [n_rows] */
+    brc_buffer *next, *presses, *probe, *near;     /* [n_rows] */
     brc_buffer *load, *delta;                      /* [n_rows][LOAD] */
     brc_buffer *held, *rubbed;                     /* [n_rows] */
     bool any;                                      /* some bond has broken */
@@ -81,7 +81,7 @@ static const brc_field_row rows[] = {
     BRC_FIELD(place, brc_each_row, 3, STATE, NULL, "places of elements", "m"),
     BRC_KEPT_FIELD(next, brc_each_row, 1, INT, NULL, "broken faces", "-", "closed.next", BRC_KEEP_ALL),
     BRC_FIELD(presses, brc_each_row, 1, INT, NULL, "broken faces", "-"),
-    {"probe", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(look), "broken faces", "-", BRC_NOT_KEPT},
+    BRC_FIELD(probe, brc_each_row, 1, INT, NULL, "broken faces", "-"),
     BRC_FIELD(near, brc_each_row, 1, INT, NULL, "broken faces", "-"),
     BRC_FIELD(load, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
     BRC_FIELD(delta, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
@@ -179,7 +179,7 @@ brc_status brc_closed_faces_keep(brc_simulation *s)
     return brc_pass_run(f->keep, s->n_groups);
 }
 
-brc_status brc_closed_faces_look(brc_simulation *s)
+brc_status brc_closed_faces_probe(brc_simulation *s)
 {
     const closed_faces *f = faces_of(s);
     if (!f || is_disabled(s)) return BRC_OK;
