@@ -9,8 +9,8 @@ CALL = re.compile(r"\b([a-z]\w+)\s*\(")
 
 
 def definitions(text):
-    """(name, static) of the functions at the left margin, and of those that BRC_READ makes."""
-    for name in re.findall(r"^BRC_READ\([^,]+, (\w+),", text, re.M):
+    """(name, static) of the functions at the left margin, and of those that BRC_READ and BRC_OF_WANTS make."""
+    for name in re.findall(r"^BRC_(?:READ|OF_WANTS)\([^,]+, (\w+),", text, re.M):
         yield name, False
     lines = text.split("\n")
     for number, line in enumerate(lines):

@@ -14,12 +14,12 @@ static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *va
 
 brc_status brc_upload_coeff(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count)
 {
-    return upload(s, buffer, values, count, brc_precision_coeff_bytes(brc_device_get_precision(s->device)));
+    return upload(s, buffer, values, count, brc_coeff_bytes(s));
 }
 
 brc_status brc_upload_state(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count)
 {
-    return upload(s, buffer, values, count, brc_precision_state_bytes(brc_device_get_precision(s->device)));
+    return upload(s, buffer, values, count, brc_state_bytes(s));
 }
 
 brc_status brc_download(brc_simulation *s, brc_buffer *buffer, int bytes_each, double *values, int64_t count)
@@ -58,12 +58,12 @@ static brc_status from_rows(brc_simulation *s, brc_buffer *buffer, double *value
 
 brc_status brc_state_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width)
 {
-    return from_rows(s, buffer, values, width, brc_precision_state_bytes(brc_device_get_precision(s->device)));
+    return from_rows(s, buffer, values, width, brc_state_bytes(s));
 }
 
 brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width)
 {
-    return from_rows(s, buffer, values, width, brc_precision_coeff_bytes(brc_device_get_precision(s->device)));
+    return from_rows(s, buffer, values, width, brc_coeff_bytes(s));
 }
 
 /* Room for LANE_SPARE numbers of portable.h: gathers read whole vectors. */
@@ -79,12 +79,12 @@ static brc_status new_array(brc_simulation *s, brc_buffer **out, int64_t count, 
 
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return new_array(s, out, count, brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
+    return new_array(s, out, count, brc_state_bytes(s), what);
 }
 
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return new_array(s, out, count, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
+    return new_array(s, out, count, brc_coeff_bytes(s), what);
 }
 
 brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count)

@@ -138,7 +138,7 @@ static brc_status upload_masses(brc_simulation *s)
     const brc_layout *layout = s->layout;
     BRC_LOCAL(s->context, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, double, values, "masses");
     for (int64_t e = 0; e < d->n_elements; ++e)
-        values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
+        values[e] = brc_mass_of_element(s, e);
     BRC_TRY(brc_state_to_rows(s, s->core->mass, values, 1, 1));
     if (s->core->volume) BRC_TRY(brc_state_to_rows(s, s->core->volume, d->volume, 1, 1));
     if (s->core->inertia) {

@@ -246,6 +246,19 @@ brc_status brc_notify_frame(brc_simulation *s);
 brc_status brc_notify_pause(brc_simulation *s, brc_pause why);
 brc_status brc_statics_store_stage(brc_simulation *s, brc_state_store *store);
 
+/* Of a number of the device. */
+static inline int brc_coeff_bytes(const brc_simulation *s)
+{
+    return brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+}
+static inline int brc_state_bytes(const brc_simulation *s)
+{
+    return brc_precision_state_bytes(brc_device_get_precision(s->device));
+}
+static inline double brc_mass_of_element(const brc_simulation *s, int64_t e)
+{
+    return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density;
+}
 static inline bool brc_has_spheres(const brc_simulation *s)
 {
     return s->model->element == BRC_ELEMENT_SPHERE;

@@ -26,14 +26,8 @@ static void ask_tchamwa(brc_wants *w, const int32_t *material)
         w->tchamwa |=
             w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC && w->scene->stages[i].integrator == BRC_TCHAMWA_WIELGOSZ;
 }
-static bool some_stage(const brc_wants *w, brc_solver_kind solver)
-{
-    for (int32_t i = 0; i < w->scene->n_stages; ++i)
-        if (w->scene->stages[i].solver == solver) return true;
-    return false;
-}
-BRC_WANTED(statics, some_stage(w, BRC_SOLVER_STATIC))
-BRC_WANTED(modes, some_stage(w, BRC_SOLVER_MODES))
+BRC_WANTED(statics, brc_wants_solver(w, BRC_SOLVER_STATIC))
+BRC_WANTED(modes, brc_wants_solver(w, BRC_SOLVER_MODES))
 
 const brc_effect brc_several_materials_effect = {.name = "several materials", .in = many};
 const brc_effect brc_numerical_damping_effect = {

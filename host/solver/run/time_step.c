@@ -38,13 +38,7 @@ typedef struct work_vectors {
     brc_buffer *x, *y, *theta, *orientation, *torque;
 } work_vectors;
 
-static bool dynamics(const brc_wants *w)
-{
-    bool any = false;
-    for (int32_t i = 0; i < w->scene->n_stages; ++i)
-        any |= w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC;
-    return any;
-}
+BRC_WANTED(dynamics, brc_wants_solver(w, BRC_SOLVER_DYNAMIC))
 
 #define AT(member) BRC_FIELD_AT(work_vectors, member)
 static const brc_field_row rows[] = {

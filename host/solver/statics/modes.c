@@ -41,13 +41,7 @@ typedef struct mode_space {
     brc_buffer *in, *out, *orientation, *torque;
 } mode_space;
 
-static bool modes(const brc_wants *w)
-{
-    bool any = false;
-    for (int32_t i = 0; i < w->scene->n_stages; ++i)
-        any |= w->scene->stages[i].solver == BRC_SOLVER_MODES;
-    return any;
-}
+BRC_WANTED(modes, brc_wants_solver(w, BRC_SOLVER_MODES))
 
 #define AT(member) BRC_FIELD_AT(mode_space, member)
 static const brc_field_row mode_rows[] = {
@@ -89,8 +83,7 @@ static brc_status allocate(mode_space *t)
     BRC_TRY(brc_fields_create(s->device, &brc_mode_fields, &s->wants, t));
     BRC_TRY(prepare_preconditioner(t));
     double *mass = t->w; /* scratch */
-    BRC_TRY(brc_download(s, brc_mass_of(s), brc_precision_state_bytes(brc_device_get_precision(s->device)), mass,
-                         t->n / 3));
+    BRC_TRY(brc_download(s, brc_mass_of(s), brc_state_bytes(s), mass, t->n / 3));
     for (int64_t i = 0; i < t->n; ++i) {
         t->mass[i] = mass[i / 3];
         t->fixed[i] = s->layout->element_of_row[i / 3] < 0;
@@ -124,7 +117,7 @@ static brc_status multiply(mode_space *t, const double *in, double *out)
                                                        .orientation = t->orientation,
                                                        .torque = t->torque,
                                                        .homogeneous = true}));
-    BRC_TRY(brc_download(s, t->out, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, t->n));
+    BRC_TRY(brc_download(s, t->out, brc_state_bytes(s), out, t->n));
     for (int64_t i = 0; i < t->n; ++i)
         out[i] = t->fixed[i] ? 0 : -out[i];
     return BRC_OK;
@@ -253,7 +246,7 @@ static brc_status precondition(mode_space *t, double *w)
         BRC_TRY(brc_statics_project_free_motions(s, &pieces, in));
         BRC_TRY(brc_multigrid_apply(t->multigrid, in, out));
         BRC_TRY(brc_statics_project_free_motions(s, &pieces, out));
-        BRC_TRY(brc_download(s, t->out, brc_precision_state_bytes(brc_device_get_precision(s->device)), w, t->n));
+        BRC_TRY(brc_download(s, t->out, brc_state_bytes(s), w, t->n));
     }
     for (int64_t r = 0; t->blocks && r < t->n / 3; ++r) {
         const double *b = t->blocks + 6 * r, a0 = w[3 * r], a1 = w[3 * r + 1], a2 = w[3 * r + 2];

@@ -39,7 +39,7 @@ BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows
 
 brc_status brc_solve_vectors_create(brc_simulation *s, brc_solve_vectors *v)
 {
-    v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    v->state_bytes = brc_state_bytes(s);
     v->arm = 1;
     BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
     if (s->domain->radius) {

@@ -408,7 +408,7 @@ static double fastest_striker(const brc_simulation *s)
         for (int64_t e = 0; e < d->n_elements; ++e) {
             const double size = brc_has_spheres(s) ? 2 * d->radius[e] : cbrt(d->volume[e]),
                          share = brc_contact_law_of(s, s->material_of_element[e], striker->material)[5];
-            const double own = d->volume[e] * s->elastic[s->material_of_element[e]].density;
+            const double own = brc_mass_of_element(s, e);
             stiffness = fmax(stiffness, stiffest(s, e, striker->material) / (size * size));
             damping = fmax(damping, share * share * own * mass / ((own + mass) * size * size));
         }

@@ -95,8 +95,7 @@ static brc_status read_survey(brc_simulation *s, brc_buffer *moved, int32_t n_pi
     const int64_t n_blocks = brc_blocks(s->layout->n_rows, BRC_CONTACT_BLOCK), rows = n_blocks + n_pieces;
     *out = (survey){.element = {0}};
     BRC_LOCAL(s->context, BRC_CONTACT_MOVED * rows, double, value, "moves since the last search");
-    const brc_status status = brc_download(s, moved, brc_precision_state_bytes(brc_device_get_precision(s->device)),
-                                           value, BRC_CONTACT_MOVED * rows);
+    const brc_status status = brc_download(s, moved, brc_state_bytes(s), value, BRC_CONTACT_MOVED * rows);
     largest_of(value, 0, n_blocks, out->element);
     largest_of(value, n_blocks, rows, out->piece);
     return status;
@@ -177,7 +176,7 @@ brc_status brc_contact_put_off_probe(brc_simulation *s)
     if (c->n_probes++ == 0)
         BRC_TRY(brc_buffer_copy(c->most_moved, c->moved, bytes));
     else
-        BRC_TRY(brc_pass_run(c->pass.most, bytes / brc_precision_state_bytes(brc_device_get_precision(s->device))));
+        BRC_TRY(brc_pass_run(c->pass.most, bytes / brc_state_bytes(s)));
     c->most_pushed = fmax(c->most_pushed, pushed_now(s));
     c->quiet = MOST_QUIET;
     return BRC_OK;

@@ -156,7 +156,7 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     BRC_TRY(brc_upload_int(c->material, number, n + np));
     for (int32_t r = 0; r < n; ++r) {
         const int32_t e = layout->element_of_row[r];
-        value[r] = e < 0 ? 1 : d->volume[e] * s->elastic[s->material_of_element[e]].density;
+        value[r] = e < 0 ? 1 : brc_mass_of_element(s, e);
     }
     for (int32_t p = 0; p < np; ++p)
         value[n + p] =

@@ -113,7 +113,7 @@ brc_status brc_contact_bring_pairs(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const struct brc_contact_share *h = c->share;
-    const int64_t state = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int64_t state = brc_state_bytes(s);
     if (!brc_device_is_shared(s->device) || c->now.n_pairs == 0) return BRC_OK;
     BRC_LOCAL(s->context, h->n_pairs, int32_t, row, "pairs");
     for (int64_t p = 0; p < h->n_pairs; ++p)

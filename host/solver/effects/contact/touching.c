@@ -11,7 +11,7 @@ brc_status brc_simulation_touching(brc_simulation *s, brc_touching *out)
                         "the scene has no `interactions: {contact: ...}`, so nothing touches");
     const brc_contact_list *l = &s->contact->now;
     const int64_t stride = BRC_CONTACT_RESULT + 2 * s->contact->width, n = l->n_pairs;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     if (n == 0) return BRC_OK;
     BRC_TRY(brc_contact_bring_pairs(s));
     BRC_LOCAL(s->context, stride * n, double, result, "forces of pairs");
@@ -34,7 +34,7 @@ brc_status brc_simulation_touching(brc_simulation *s, brc_touching *out)
 int64_t brc_simulation_pair_bytes(const brc_simulation *s)
 {
     if (!s->contact) return 0;
-    const int64_t state = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int64_t state = brc_state_bytes(s);
     const int64_t result = (BRC_CONTACT_RESULT + 2 * s->contact->width) * state,
                   lists = 2 * (2 * 4 + BRC_CONTACT_HISTORY * state); /* ends and history, now and before */
     const int64_t breaks = s->fracture ? 4 * 4 + result : 0; /* packed, its place; flags and list of changed pairs */
@@ -55,7 +55,7 @@ brc_contact_report brc_simulation_contact_report(const brc_simulation *s)
 brc_status brc_contact_read_pairs(brc_simulation *s, int32_t *ends, double *history)
 {
     const brc_contact_list *l = &s->contact->now;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     if (l->n_pairs == 0) return BRC_OK;
     if (history) BRC_TRY(brc_contact_bring_pairs(s));
     if (ends) BRC_TRY(brc_buffer_read(l->ends, 0, ends, 8 * (int64_t)l->n_pairs));

@@ -36,7 +36,7 @@ static brc_status read_entries(brc_simulation *s, entries *e)
 {
     const brc_breaking *f = s->fracture;
     const int64_t n = s->layout->n_slots * s->layout->slice;
-    const int coeff = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+    const int coeff = brc_coeff_bytes(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &e->step, n, "broken bonds"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->mode, n, "broken bonds"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->stress, n, "broken bonds"));

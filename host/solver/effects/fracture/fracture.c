@@ -312,7 +312,7 @@ BRC_READ(const double *, brc_fracture_limits, s->fracture->limit)
 brc_status brc_fracture_judged(brc_simulation *s, double *stress, double *record)
 {
     const brc_layout *layout = s->layout;
-    const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_coeff_bytes(s);
     BRC_TRY(brc_coeff_from_rows(s, s->fracture->stress, stress, 6));
     BRC_LOCAL(s->context, 8 * (int64_t)layout->n_rows, double, rows, "virial records");
     const brc_status status = brc_download(s, s->fracture->record, bytes, rows, 8 * (int64_t)layout->n_rows);

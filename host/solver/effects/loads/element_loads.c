@@ -51,21 +51,16 @@ static brc_status leave_isolated_out(brc_simulation *s, const brc_stage *stage, 
     return BRC_OK;
 }
 
-static double mass_of(const brc_simulation *s, int32_t e)
-{
-    return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density;
-}
-
 /* Forces at factor 1 [n][3]. */
 static brc_status share_out(brc_simulation *s, const brc_stage *stage, const brc_load *load,
                             const brc_load_member *items, int32_t n, double *total)
 {
     double mass = 0;
     for (int32_t i = 0; i < n; ++i)
-        mass += mass_of(s, items[i].id);
+        mass += brc_mass_of_element(s, items[i].id);
     for (int32_t i = 0; i < n; ++i) {
         double *f = total + 3 * (int64_t)i;
-        const double part = load->share == BRC_SHARE_MASS ? mass_of(s, items[i].id) / mass : 1.0 / n;
+        const double part = load->share == BRC_SHARE_MASS ? brc_mass_of_element(s, items[i].id) / mass : 1.0 / n;
         const double *x = s->domain->position + 3 * (int64_t)items[i].id;
         const double r[3] = {x[0] - load->origin[0], x[1] - load->origin[1], x[2] - load->origin[2]};
         const double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);

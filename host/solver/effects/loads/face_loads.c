@@ -44,7 +44,7 @@ brc_status brc_traction_forces_run(brc_simulation *s, const brc_pass *pass, cons
 brc_status brc_held_faces_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
 {
     const brc_held_faces *h = &s->loads->held;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     double *held = NULL;
     if (!h->n_faces || !h->value) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &held, 3 * (int64_t)h->n_faces, "held faces"));

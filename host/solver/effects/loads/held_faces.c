@@ -93,8 +93,7 @@ brc_status brc_held_faces_places(brc_simulation *s, double **out)
     if (h->n_faces == 0 || !h->value) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &value, 3 * (int64_t)h->n_faces, "held faces"));
     BRC_LOCAL(s->context, 3 * n, double, place, "held faces");
-    BRC_TRY(brc_download(s, h->value, brc_precision_state_bytes(brc_device_get_precision(s->device)), value,
-                         3 * (int64_t)h->n_faces));
+    BRC_TRY(brc_download(s, h->value, brc_state_bytes(s), value, 3 * (int64_t)h->n_faces));
     for (int64_t f = 0; f < n; ++f) {
         const int32_t at = h->index_of_free_face[f];
         for (int c = 0; c < 3; ++c)

@@ -27,7 +27,7 @@ static brc_status face_reactions(brc_simulation *s, const brc_set *set, reaction
 {
     const brc_domain *d = s->domain;
     const brc_held_faces *h = &s->loads->held;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     BRC_FREED double *u = NULL;
     if (set->kind != BRC_SET_FACES || h->n_faces == 0) return BRC_OK;
     BRC_LOCAL(s->context, 3 * (int64_t)h->n_faces, double, values, "reactions");
@@ -46,7 +46,7 @@ static brc_status face_reactions(brc_simulation *s, const brc_set *set, reaction
 static brc_status element_reactions(brc_simulation *s, const brc_set *set, reaction_sum *sum)
 {
     const brc_domain *d = s->domain;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     BRC_FREED double *u = NULL;
     if (s->loads->n_prescribed + s->loads->n_turns == 0) return BRC_OK;
     BRC_LOCAL(s->context, 3 * d->n_elements, double, values, "reactions");

@@ -301,8 +301,7 @@ const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int
 /* `width` numbers of one striker. */
 static brc_status read_one(brc_simulation *s, brc_buffer *buffer, int32_t striker, int width, double *out)
 {
-    if (brc_precision_state_bytes(brc_device_get_precision(s->device)) == 8)
-        return brc_buffer_read(buffer, (int64_t)striker * width * 8, out, (int64_t)width * 8);
+    if (brc_state_bytes(s) == 8) return brc_buffer_read(buffer, (int64_t)striker * width * 8, out, (int64_t)width * 8);
     float narrow[6];
     BRC_TRY(brc_buffer_read(buffer, (int64_t)striker * width * 4, narrow, (int64_t)width * 4));
     for (int c = 0; c < width; ++c)

@@ -229,8 +229,7 @@ brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *ou
     if (!f) return BRC_OK;
     BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of beams");
     BRC_LOCAL(s->context, n_entries, int32_t, open, "cohesion of beams");
-    BRC_TRY(brc_download(s, f->crack, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), crack,
-                         WIDTH * n_entries));
+    BRC_TRY(brc_download(s, f->crack, brc_coeff_bytes(s), crack, WIDTH * n_entries));
     BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];

@@ -343,8 +343,7 @@ static brc_status rejoin(brc_simulation *s, softening_faces *f)
     BRC_LOCAL(s->context, n, double, alive, "unbroken bonds");
     BRC_TRY(brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
     BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n));
-    BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"),
-                         brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
+    BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"), brc_coeff_bytes(s), alive, n));
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0)
             neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
@@ -383,7 +382,7 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
     const int64_t n_entries = layout->n_slots * layout->slice;
     *out = (brc_softening_report){0};
     if (!f || !f->any) return BRC_OK;
-    const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_coeff_bytes(s);
     BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of faces");
     BRC_LOCAL(s->context, n_entries, double, alive, "unbroken bonds");
     BRC_LOCAL(s->context, n_entries, int32_t, open, "open faces");

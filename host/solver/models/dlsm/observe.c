@@ -83,7 +83,7 @@ brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_
     BRC_TRY(brc_new_state(s, &result, 3 * n, "faces"));
     BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->face_displacement, n, {"element", BRC_BUF(element)}, {"arm", BRC_BUF(arm)},
                     {"out", BRC_BUF(result)}));
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     BRC_TRY(brc_download(s, result, bytes, out, 3 * n));
     return brc_held_faces_displacement(s, n, faces, out);
 }

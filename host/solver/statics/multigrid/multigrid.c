@@ -169,7 +169,7 @@ static brc_status upload_blocks(brc_simulation *s, brc_buffer *out, int64_t coun
                                 const brc_narrow *narrow)
 {
     enum { CHUNK = 4096 };
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     BRC_LOCAL(s->context, 36 * CHUNK, double, part, "multigrid");
     BRC_LOCAL(s->context, 36 * CHUNK, float, single, "multigrid");
     for (int64_t first = 0; first < count; first += CHUNK) {
