@@ -65,15 +65,17 @@ typedef struct brc_field_row {
 #define BRC_NOT_KEPT NULL, BRC_KEEP_ALL
 #define BRC_KEPT(name, which) name, which
 #define BRC_FIELD_AT(owner, member) offsetof(owner, member)
-/* A row of a field that its owner calls as kernels do, and one that a checkpoint has; where in the owner: AT of the
- * file. */
-#define BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, as, which)                                            \
+/* A row of a field that its owner calls as kernels do: of which a checkpoint has a part, all, nothing. Where in the
+ * owner: AT of the file. */
+#define BRC_PART_KEPT(id, each, numbers, kind, when, words, in, as, which)                                             \
     {                                                                                                                  \
         .name = #id, .count = each, .width = numbers, .number = BRC_FIELD_##kind, .wanted = when, .at = AT(id),        \
         .what = words, .unit = in, .kept = as, .keep = which                                                           \
     }
+#define BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, as)                                                   \
+    BRC_PART_KEPT(id, each, numbers, kind, when, words, in, as, BRC_KEEP_ALL)
 #define BRC_FIELD(id, each, numbers, kind, when, words, in)                                                            \
-    BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, NULL, BRC_KEEP_ALL)
+    BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, NULL)
 /* A function of w, what a run wants; whether a field or table is wanted; how many things have one. */
 #define BRC_OF_WANTS(type, name, value)                                                                                \
     type name(const brc_wants *w)                                                                                      \

@@ -26,7 +26,7 @@ static const brc_field_row rows[] = {
     UNKNOWNS("z", z),
     UNKNOWNS("p", p),
     UNKNOWNS("kp", kp),
-    BRC_KEPT_FIELD(before, brc_each_row, 3, STATE, NULL, "static solver", "m", "static.before", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(before, brc_each_row, 3, STATE, NULL, "static solver", "m", "static.before"),
     BRC_FIELD(zero, brc_each_row, 3, STATE, settles_rotations, "static solver", "-"),
     BRC_FIELD(orientation, brc_each_row, 4, STATE, brc_wants_turning, "static solver", "-"),
     BRC_FIELD(theta, brc_each_row, 3, STATE, solves_rotations, "static solver", "rad"),

@@ -47,12 +47,12 @@ BRC_WANTED(published_by_bond, brc_wants_rigid_cells(w) && !w->by_element)
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
 static const brc_field_row rows[] = {
-    BRC_KEPT_FIELD(limit, brc_each_entry, 1, COEFF, NULL, "limits of bonds", "Pa", "cells.limit", BRC_KEEP_BROKEN),
-    BRC_KEPT_FIELD(alive, brc_each_entry, 1, COEFF, NULL, "unbroken bonds", "-", "cells.alive", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(limit, brc_each_entry, 1, COEFF, NULL, "limits of bonds", "Pa", "cells.limit", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(alive, brc_each_entry, 1, COEFF, NULL, "unbroken bonds", "-", "cells.alive", BRC_KEEP_BROKEN),
     BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "twins", "-"),
     BRC_FIELD(mark, brc_each_entry, 1, INT, NULL, "marked bonds", "-"),
     BRC_FIELD(measure, brc_each_entry, 1, COEFF, NULL, "stresses of marked bonds", "Pa"),
-    BRC_KEPT_FIELD(least, brc_each_row, 1, COEFF, NULL, "smallest limits", "Pa", "cells.least", BRC_KEEP_OWNERS),
+    BRC_PART_KEPT(least, brc_each_row, 1, COEFF, NULL, "smallest limits", "Pa", "cells.least", BRC_KEEP_OWNERS),
     {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
     BRC_FIELD(support, brc_each_row, 1, COEFF, NULL, "supports", "-"),
     BRC_FIELD(stiffest, brc_each_row, 1, COEFF, brc_wants_deforming, "supports", "1/m^2"),
@@ -61,8 +61,8 @@ static const brc_field_row rows[] = {
     BRC_FIELD(weight, brc_each_row, 1, STATE, NULL, "weights of broken bonds", "-"),
     BRC_FIELD(found, brc_each_row, 1, STATE, NULL, "marks of elements", "-"),
     {"own_branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
-    BRC_KEPT_FIELD(spanned, brc_each_block, 6, COEFF, brc_wants_rigid_cells, "supports", "-", "cells.spanned",
-                   BRC_KEEP_OWNERS),
+    BRC_PART_KEPT(spanned, brc_each_block, 6, COEFF, brc_wants_rigid_cells, "supports", "-", "cells.spanned",
+                  BRC_KEEP_OWNERS),
     BRC_FIELD(bond_ratio, brc_each_row, 1, COEFF, published_by_bond, "ratios of bonds", "-"),
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);

@@ -20,8 +20,8 @@ BRC_WANTED(softens, w->softens)
 static const brc_field_row rows[] = {
     BRC_FIELD(other, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
     BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
-    BRC_KEPT_FIELD(bears, brc_each_entry, 1, INT, NULL, "broken beams", "-", "closure.bears", BRC_KEEP_ALL),
-    BRC_KEPT_FIELD(lean, brc_each_entry, LEAN, COEFF, softens, "broken beams", "-", "closure.lean", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(bears, brc_each_entry, 1, INT, NULL, "broken beams", "-", "closure.bears"),
+    BRC_KEPT_FIELD(lean, brc_each_entry, LEAN, COEFF, softens, "broken beams", "-", "closure.lean"),
     BRC_FIELD(rubs, brc_each_group, 1, INT, NULL, "broken beams", "-"),
 };
 BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_lost_beams, rows);

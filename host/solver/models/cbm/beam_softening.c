@@ -23,9 +23,8 @@ BRC_WANTED(softens, w->scene->has_fracture &&brc_wants_spheres(w) && w->softens)
 
 #define AT(member) BRC_FIELD_AT(beam_softening, member)
 static const brc_field_row rows[] = {
-    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of beams", "-", "softening.crack",
-                   BRC_KEEP_ALL),
-    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open beams", "-", "softening.open", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of beams", "-", "softening.crack"),
+    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open beams", "-", "softening.open"),
     BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
     BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
     BRC_FIELD(active, brc_each_group, 1, INT, NULL, "open beams", "-"),

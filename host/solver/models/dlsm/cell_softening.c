@@ -47,17 +47,15 @@ BRC_WANTED(slides, brc_scene_slides(w->scene, w->scene->model.kind))
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {
-    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of faces", "-", "softening.crack",
-                   BRC_KEEP_ALL),
-    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open faces", "-", "softening.open", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of faces", "-", "softening.crack"),
+    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open faces", "-", "softening.open"),
     BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of faces", "-"),
-    BRC_KEPT_FIELD(n_open, brc_each_row, 1, INT, NULL, "open faces", "-", "softening.n_open", BRC_KEEP_ALL),
-    BRC_KEPT_FIELD(reach, brc_each_row, 1, COEFF, NULL, "reach of open faces", "-", "softening.reach", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(n_open, brc_each_row, 1, INT, NULL, "open faces", "-", "softening.n_open"),
+    BRC_KEPT_FIELD(reach, brc_each_row, 1, COEFF, NULL, "reach of open faces", "-", "softening.reach"),
     BRC_FIELD(shear_limit, brc_each_entry, 1, COEFF, slides, "limits of shear", "Pa"),
     BRC_FIELD(shear_energy, brc_each_entry, 1, COEFF, slides, "fracture energies in shear", "J"),
     BRC_FIELD(shear, brc_each_row, 1, COEFF, NULL, "shear moduli", "Pa"),
-    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "softening.rubbed",
-                   BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "softening.rubbed"),
 };
 BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
 

@@ -72,22 +72,21 @@ BRC_WANTED(rubs, brc_scene_side_friction(w->scene) > 0)
 
 #define AT(member) BRC_FIELD_AT(closed_faces, member)
 static const brc_field_row rows[] = {
-    BRC_KEPT_FIELD(closed, brc_each_entry, 1, INT, NULL, "broken faces", "-", "closed.faces", BRC_KEEP_BROKEN),
-    BRC_KEPT_FIELD(spring, brc_each_entry, 1, COEFF, NULL, "springs of broken faces", "N/m", "closed.spring",
-                   BRC_KEEP_BROKEN),
-    BRC_KEPT_FIELD(overlap, brc_each_entry, 1, COEFF, NULL, "broken faces", "m", "closed.overlap", BRC_KEEP_BROKEN),
-    BRC_KEPT_FIELD(slide, brc_each_entry, 3, COEFF, rubs, "friction of broken faces", "m", "closed.slide",
-                   BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(closed, brc_each_entry, 1, INT, NULL, "broken faces", "-", "closed.faces", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(spring, brc_each_entry, 1, COEFF, NULL, "springs of broken faces", "N/m", "closed.spring",
+                  BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(overlap, brc_each_entry, 1, COEFF, NULL, "broken faces", "m", "closed.overlap", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(slide, brc_each_entry, 3, COEFF, rubs, "friction of broken faces", "m", "closed.slide",
+                  BRC_KEEP_BROKEN),
     BRC_FIELD(place, brc_each_row, 3, STATE, NULL, "places of elements", "m"),
-    BRC_KEPT_FIELD(next, brc_each_row, 1, INT, NULL, "broken faces", "-", "closed.next", BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(next, brc_each_row, 1, INT, NULL, "broken faces", "-", "closed.next"),
     BRC_FIELD(presses, brc_each_row, 1, INT, NULL, "broken faces", "-"),
     BRC_FIELD(probe, brc_each_row, 1, INT, NULL, "broken faces", "-"),
     BRC_FIELD(near, brc_each_row, 1, INT, NULL, "broken faces", "-"),
     BRC_FIELD(load, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
     BRC_FIELD(delta, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
     BRC_FIELD(held, brc_each_row, 1, STATE, NULL, "energy of broken faces", "J"),
-    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "closed.rubbed",
-                   BRC_KEEP_ALL),
+    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "closed.rubbed"),
 };
 BRC_FIELD_TABLE(brc_closed_face_fields, "broken faces that bear", BRC_LIFE_RUN, shuts, rows);
 
