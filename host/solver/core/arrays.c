@@ -1,6 +1,7 @@
 /* Host doubles by element id <-> device rows. */
 #include "../../device/shares.h"
 #include "core_internal.h"
+#include <math.h>
 
 static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count, int bytes_each)
 {
@@ -68,6 +69,16 @@ brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *va
 
 /* Room for LANE_SPARE numbers of portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
+
+brc_status brc_largest_coeff(brc_simulation *s, brc_buffer *buffer, double *out)
+{
+    *out = 0;
+    BRC_LOCAL(s->context, s->domain->n_elements, double, value, "numbers of elements");
+    BRC_TRY(brc_coeff_from_rows(s, buffer, value, 1));
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        *out = fmax(*out, value[e]);
+    return BRC_OK;
+}
 
 static brc_status new_array(brc_simulation *s, brc_buffer **out, int64_t count, int bytes, const char *what)
 {

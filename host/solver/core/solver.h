@@ -94,6 +94,8 @@ brc_status brc_download(brc_simulation *s, brc_buffer *buffer, int bytes_each, d
 brc_status brc_state_to_rows(brc_simulation *s, brc_buffer *buffer, const double *values, int width, double fill);
 brc_status brc_state_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width);
 brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width);
+/* The largest of a number of each element, 0 where all are below. */
+brc_status brc_largest_coeff(brc_simulation *s, brc_buffer *buffer, double *out);
 /* New buffers of count numbers. */
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
@@ -254,6 +256,11 @@ static inline int brc_coeff_bytes(const brc_simulation *s)
 static inline int brc_state_bytes(const brc_simulation *s)
 {
     return brc_precision_state_bytes(brc_device_get_precision(s->device));
+}
+/* Stiffness of two halves of a bond, one of each material. */
+static inline double brc_in_series(double a, double b)
+{
+    return 2 * a * b / (a + b);
 }
 static inline double brc_mass_of_element(const brc_simulation *s, int64_t e)
 {

@@ -45,7 +45,7 @@ typedef struct brc_model_breaking {
     brc_status (*branches)(struct brc_simulation *s, struct brc_buffer **out);
     /* Of elements that lost bonds; *left: of how many the other bonds, marked now, break in turn. */
     brc_status (*rebuild)(struct brc_simulation *s, double *left);
-    /* Whether the list of rings is to be placed (rings.h). */
+    /* Whether the list of rings is to be placed (rings.h); NULL: never. */
     bool (*places)(const struct brc_simulation *s, const struct brc_rings *rings);
     /* Criteria of bonds: those above `share` of their limit are marked, `found` of elements or groups counts them. */
     brc_status (*mark)(struct brc_simulation *s, double share);

@@ -226,7 +226,8 @@ static brc_status find_rings(brc_simulation *s)
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
     BRC_TRY(brc_contact_spread(s, brc_rings_level(rings), 1 + 2));
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
-    return brc_rings_close(s, rings, s->model->breaking->places(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, NULL);
+    const bool places = s->model->breaking->places && s->model->breaking->places(s, rings);
+    return brc_rings_close(s, rings, places ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, NULL);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in

@@ -295,13 +295,9 @@ brc_status brc_fracture_ratio(brc_simulation *s, double *out)
     BRC_ENDS_WITH(brc_buffer_free) brc_buffer *ratio = NULL;
     *out = 0;
     BRC_TRY(brc_new_coeff(s, &ratio, n, "failure ratios"));
-    BRC_LOCAL(s->context, s->domain->n_elements, double, value, "failure ratios");
     BRC_TRY(find_stress(s));
     BRC_TRY(BRC_RUN(s->fracture->ratio, n, {"ratio", BRC_BUF(ratio)}));
-    BRC_TRY(brc_coeff_from_rows(s, ratio, value, 1));
-    for (int64_t e = 0; e < s->domain->n_elements; ++e)
-        *out = fmax(*out, value[e]);
-    return BRC_OK;
+    return brc_largest_coeff(s, ratio, out);
 }
 
 BRC_READ(const double *, brc_fracture_limits, s->fracture->limit)

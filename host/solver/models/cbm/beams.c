@@ -130,11 +130,6 @@ brc_status brc_beams_upload(brc_simulation *s)
     return status == BRC_OK ? brc_upload_coeff(s, brc_beam_array_of(s), rows, 3 * (int64_t)layout->n_rows) : status;
 }
 
-static double in_series(double a, double b)
-{
-    return 2 * a * b / (a + b);
-}
-
 /* Diagonal block of element e (docs/notebook/beams.md), full, u before theta: sum over its beams of
  * translation ka n n^T + (6 A / l^2)(1 - n n^T), rotation 2 A (1 - n n^T) + kt n n^T, coupling (3 A / l) [n]x. */
 static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
@@ -152,8 +147,9 @@ static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
         const double length = sqrt(square);
         for (int c = 0; c < 3; ++c)
             n[c] /= length;
-        const double ka = in_series(own->axial, other->axial) / length, a = in_series(own->bend, other->bend) / length;
-        const double kt = in_series(own->twist, other->twist) / length, across = 6 * a / square,
+        const double ka = brc_in_series(own->axial, other->axial) / length,
+                     a = brc_in_series(own->bend, other->bend) / length;
+        const double kt = brc_in_series(own->twist, other->twist) / length, across = 6 * a / square,
                      couple = 3 * a / length;
         for (int p = 0; p < 3; ++p) {
             for (int q = 0; q < 3; ++q) {

@@ -132,12 +132,8 @@ brc_status brc_dlsm_ratio(brc_simulation *s, double *out)
     BRC_ENDS_WITH(brc_buffer_free) brc_buffer *ratio = NULL;
     *out = 0;
     BRC_TRY(brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
-    BRC_LOCAL(s->context, s->domain->n_elements, double, value, "failure ratios");
     BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
-    BRC_TRY(brc_coeff_from_rows(s, ratio, value, 1));
-    for (int64_t e = 0; e < s->domain->n_elements; ++e)
-        *out = fmax(*out, value[e]);
-    return BRC_OK;
+    return brc_largest_coeff(s, ratio, out);
 }
 
 /* Areas and ratios are stored in place of branches. */

@@ -1,4 +1,5 @@
 #include "cell_softening.h"
+#include "../../core/sym3.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
 #include "dlsm_internal.h"
@@ -89,11 +90,6 @@ static brc_status make_passes(brc_simulation *s, softening_faces *f)
     return BRC_PASSES_MAKE(s, &faces, wanted);
 }
 
-static double norm3(const double *x)
-{
-    return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-}
-
 /* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those
  * snap open; tells where loads at notches want more cells. */
 static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths)
@@ -134,7 +130,7 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
         double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
-        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
@@ -163,7 +159,7 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
         if (h < 0) continue;
         f->shear_least = fmin(f->shear_least, whole * strengths->factor[d->bond[h]] / reach);
         limit[k] = (strengths->joint[d->bond[h]] ? -whole : whole) * strengths->factor[d->bond[h]];
-        energy[k] = strengths->shear_energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+        energy[k] = strengths->shear_energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
     }
     BRC_TRY(brc_upload_coeff(s, f->shear_limit, limit, n_entries));
     return brc_upload_coeff(s, f->shear_energy, energy, n_entries);
@@ -399,7 +395,7 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
             continue;
         }
         out->n_ended += 1;
-        out->area += tilt * own[COSINE * layout->slice] * norm3(d->area_vector + 3 * (int64_t)h);
+        out->area += tilt * own[COSINE * layout->slice] * brc_norm3(d->area_vector + 3 * (int64_t)h);
     }
     return BRC_OK;
 }

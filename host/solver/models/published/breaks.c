@@ -98,12 +98,7 @@ brc_status brc_published_rebuild(brc_simulation *s, double *left)
 
 brc_status brc_published_ratio(brc_simulation *s, double *out)
 {
-    *out = 0;
-    BRC_LOCAL(s->context, s->domain->n_elements, double, value, "failure ratios");
-    const brc_status status = brc_coeff_from_rows(s, brc_cell_breaks_array(s, "bond_ratio"), value, 1);
-    for (int64_t e = 0; status == BRC_OK && e < s->domain->n_elements; ++e)
-        *out = fmax(*out, value[e]);
-    return status;
+    return brc_largest_coeff(s, brc_cell_breaks_array(s, "bond_ratio"), out);
 }
 
 brc_status brc_published_branches(brc_simulation *s, brc_buffer **out)

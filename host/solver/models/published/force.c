@@ -18,11 +18,6 @@ brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r
     return brc_traction_forces_run(s, brc_published_own_of(s)->traction, r);
 }
 
-bool brc_published_places(const brc_simulation *s, const brc_rings *rings)
-{
-    return (void)s, (void)rings, false;
-}
-
 brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings)
 {
     return brc_rings_replace(s, rings, 2, 2);
