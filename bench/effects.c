@@ -197,8 +197,8 @@ static brc_status guard_cost(const brc_effects_request *r, brc_simulation *s, do
     brc_ledger ledger;
     BRC_TRY(brc_guard_begin_stage(s));
     const brc_guard_report every = brc_simulation_guard_report(s);
-    const int64_t look_every = 16; /* docs/notebook/stability.md */
-    BRC_TRY(brc_simulation_advance(s, look_every - brc_simulation_step(s) % look_every));
+    const int64_t probe_every = 16; /* docs/notebook/stability.md */
+    BRC_TRY(brc_simulation_advance(s, probe_every - brc_simulation_step(s) % probe_every));
     BRC_TRY(brc_simulation_wait(s));
     start = clock_s(r);
     for (int k = 0; k < GUARD_LOOKS; ++k)
@@ -213,7 +213,7 @@ static brc_status guard_cost(const brc_effects_request *r, brc_simulation *s, do
     for (int k = 0; k < WARM_STEPS; ++k)
         BRC_TRY(brc_simulation_ledger(s, &ledger));
     ledger_s = (clock_s(r) - start) / WARM_STEPS;
-    *out = (look / (double)look_every + read / (double)every.every + ledger_s / (double)every.ledger_every) / per_step;
+    *out = (look / (double)probe_every + read / (double)every.every + ledger_s / (double)every.ledger_every) / per_step;
     return BRC_OK;
 }
 

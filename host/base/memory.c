@@ -100,6 +100,13 @@ void brc_memory_free(void *block)
     free(size);
 }
 
+void brc_memory_end_scope(void *variable)
+{
+    void *block;
+    memcpy(&block, variable, sizeof block);
+    brc_memory_free(block);
+}
+
 int64_t brc_memory_held(void)
 {
     return atomic_load(&held_bytes);

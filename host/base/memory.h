@@ -15,6 +15,15 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t count, 
 brc_status brc_memory_resize(brc_context *context, void **block, int64_t count, size_t size, const char *what);
 /* Free a block got from brc_memory_allocate; accepts NULL. */
 void brc_memory_free(void *block);
+/* A variable that is freed where its scope ends, by a function that takes its address: BRC_ENDS_WITH(brc_buffer_free)
+ * brc_buffer *x = NULL; and a block: BRC_FREED double *x = NULL. */
+#define BRC_ENDS_WITH(free) __attribute__((cleanup(free)))
+void brc_memory_end_scope(void *variable);
+#define BRC_FREED BRC_ENDS_WITH(brc_memory_end_scope)
+/* The same with a block: BRC_LOCAL(context, n, double, x, "masses") declares x, or returns why there is none. */
+#define BRC_LOCAL(context, count, type, name, what)                                                                    \
+    BRC_FREED type *name = NULL;                                                                                       \
+    BRC_TRY(BRC_ALLOCATE((context), &name, (count), (what)))
 /* Bytes of a block, at least those asked for. */
 int64_t brc_memory_block_bytes(const void *block);
 enum { BRC_MEMORY_HEAD = 64 };

@@ -91,8 +91,6 @@ typedef struct brc_packed_arg {
 } brc_packed_arg;
 brc_packed_arg brc_arg_pack(const brc_device *device, const brc_arg *arg);
 
-/* Index in the list of the device `auto` takes for a precision, and the sentence why. */
-int brc_device_list_choose(const brc_device_list *list, brc_precision precision, char *why, size_t bytes);
 /* The list with some kinds only, a set of bits 1 << brc_device_kind: looking for OpenCL devices starts every driver. */
 brc_status brc_device_list_look(brc_context *context, unsigned kinds, brc_device_list **out);
 /* Parts of the list, one per backend: append what there is. */

@@ -8,6 +8,8 @@
 /* Two lines a device (a third for the reason why one cannot be used), '*' before the one `auto` takes, and last the
  * sentence why it does. */
 void brc_device_list_print(const brc_device_list *list, FILE *file);
+/* Index in the list of the device `auto` takes for a precision, and the sentence why. */
+int brc_device_list_choose(const brc_device_list *list, brc_precision precision, char *why, size_t bytes);
 /* Index of the OpenCL device that rank number `local` of a machine takes: GPUs that have the precision in turn; where
  * there is none, the other usable drivers. -1: there is no OpenCL device. */
 int brc_device_list_deal(const brc_device_list *list, brc_precision precision, int32_t local);

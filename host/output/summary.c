@@ -197,7 +197,7 @@ static void add_guard(brc_json *json, const brc_assembly *a)
         brc_json_null(json, "every");
         brc_json_null(json, "ledger_every");
     }
-    brc_json_integer(json, "looks", report.looks);
+    brc_json_integer(json, "looks", report.probes);
     brc_json_integer(json, "ledgers", report.ledgers);
     brc_json_end(json);
 }

@@ -103,8 +103,8 @@ brc_status brc_simulation_virial_stress(brc_simulation *simulation, int level, d
  * (dlsm-published: u_i + (R_i - I)(C - X_i)). */
 brc_status brc_simulation_face_displacement(brc_simulation *simulation, int64_t n, const int32_t *faces, double *out);
 /* Force of the loads with prescribed motion on the solid [N], summed over the members of the domain's set (a face set:
- * its held faces; an element set: its imposed elements; a face set under element loads: the imposed elements that own
- * one of its faces). */
+ * its held faces; an element set: its prescribed elements; a face set under element loads: the prescribed elements that
+ * own one of its faces). */
 brc_status brc_simulation_reaction(brc_simulation *simulation, int32_t set, double out[3]);
 /* Moment about `point` of the same forces where they act now, plus the moments that hold prescribed rotations of the
  * set's elements [N m]. */

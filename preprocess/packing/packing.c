@@ -44,8 +44,10 @@
 /* Start points keep this distance from walls [of the mean radius]. */
 #define START_MARGIN 0.5
 
-void brc_pack_free(brc_pack *pack)
+void brc_pack_free(brc_pack **owned)
 {
+    brc_pack *pack = *owned;
+    if (!pack) return;
     brc_progress_finish(&pack->progress);
     brc_memory_free(pack->sphere);
     brc_memory_free(pack->velocity);
@@ -62,12 +64,12 @@ void brc_pack_free(brc_pack *pack)
     brc_memory_free(pack->wall);
     brc_memory_free(pack->block);
     brc_memory_free(pack->block_moved);
-    memset(pack, 0, sizeof *pack);
+    brc_memory_free(pack);
+    *owned = NULL;
 }
 
-brc_status brc_pack_create(brc_context *context, const brc_solid *solid, int64_t n, int n_threads, brc_pack *pack)
+static brc_status make_room(brc_context *context, const brc_solid *solid, int64_t n, int n_threads, brc_pack *pack)
 {
-    memset(pack, 0, sizeof *pack);
     pack->context = context;
     pack->solid = solid;
     pack->n_threads = n_threads;
@@ -87,6 +89,32 @@ brc_status brc_pack_create(brc_context *context, const brc_solid *solid, int64_t
     BRC_TRY(BRC_ALLOCATE(context, &pack->block_need, pack->n_blocks, what));
     BRC_TRY(BRC_ALLOCATE(context, &pack->block, pack->n_blocks, what));
     return BRC_ALLOCATE(context, &pack->block_moved, pack->n_blocks, what);
+}
+
+brc_status brc_pack_create(brc_context *context, const brc_solid *solid, int64_t n, int n_threads, brc_pack **out)
+{
+    BRC_TRY(BRC_ALLOCATE(context, out, 1, "packing"));
+    const brc_status status = make_room(context, solid, n, n_threads, *out);
+    if (status != BRC_OK) brc_pack_free(out);
+    return status;
+}
+
+void brc_pack_put(brc_pack *pack, int64_t i, const double x[3], double radius)
+{
+    memcpy(pack->sphere[i], x, sizeof pack->listed[i]);
+    memcpy(pack->listed[i], x, sizeof pack->listed[i]);
+    pack->sphere[i][3] = radius;
+}
+
+void brc_pack_set_radii(brc_pack *pack, double mean, double largest)
+{
+    pack->mean_radius = mean;
+    pack->largest_radius = largest;
+}
+
+double (*brc_pack_spheres(brc_pack *pack))[4]
+{
+    return pack->sphere;
 }
 
 void brc_pack_scale(brc_pack *pack, double factor)
@@ -230,15 +258,12 @@ static brc_status place(brc_pack *pack, const brc_fill *fill, pack_plan *plan, d
     plan->across = deepest / expected;
     const brc_status status = check_room(pack->context, plan, pack->n);
     for (int64_t i = 0; i < pack->n; ++i) {
-        double *const x = pack->sphere[i];
-        memcpy(x, start + 3 * i, 3 * sizeof *x);
-        memcpy(pack->listed[i], x, sizeof pack->listed[i]);
-        x[3] = brc_pack_radius(fill, i);
-        cube += x[3] * x[3] * x[3];
+        const double radius = brc_pack_radius(fill, i);
+        brc_pack_put(pack, i, start + 3 * i, radius);
+        cube += radius * radius * radius;
     }
     brc_memory_free(start);
-    pack->mean_radius = 1.0;
-    pack->largest_radius = brc_pack_largest(fill);
+    brc_pack_set_radii(pack, 1.0, brc_pack_largest(fill));
     brc_pack_scale(pack, cbrt(*fraction * plan->volume / (4.0 / 3.0 * PI * cube)));
     return status;
 }
@@ -334,7 +359,7 @@ static brc_status search(brc_pack *pack, const pack_plan *plan, double fraction,
 static brc_status finish(brc_pack *pack, const brc_fill *fill, const pack_plan *plan, brc_packing *out)
 {
     BRC_TRY(brc_pack_list(pack, 0.01 * pack->mean_radius));
-    const brc_pack_sums sums = brc_pack_forces(pack);
+    const brc_pack_sums sums = brc_pack_forces(pack, NULL);
     int64_t n_rattlers;
     BRC_TRY(count_rattlers(pack, &n_rattlers));
     out->rattlers = (double)n_rattlers / (double)pack->n;
@@ -391,19 +416,19 @@ brc_status brc_packing_make(brc_context *context, const brc_solid *solid, const 
                             brc_packing *out)
 {
     memset(out, 0, sizeof *out);
-    brc_pack pack = {0};
+    brc_pack *pack = NULL;
     pack_plan plan = {0};
     int64_t n;
     double fraction;
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, make_plan(context, solid, fill, &plan, &n));
     BRC_TRY_OR(cleanup, brc_pack_create(context, solid, n, n_threads, &pack));
-    BRC_TRY_OR(cleanup, place(&pack, fill, &plan, &fraction));
-    BRC_TRY_OR(cleanup,
-               brc_progress_create(context, &pack.progress, "packing", 0, "iterations", (double)n, "sphere updates/s"));
-    BRC_TRY_OR(cleanup, search(&pack, &plan, fraction, out));
-    brc_progress_finish(&pack.progress);
-    status = finish(&pack, fill, &plan, out);
+    BRC_TRY_OR(cleanup, place(pack, fill, &plan, &fraction));
+    BRC_TRY_OR(cleanup, brc_progress_create(context, &pack->progress, "packing", 0, "iterations", (double)n,
+                                            "sphere updates/s"));
+    BRC_TRY_OR(cleanup, search(pack, &plan, fraction, out));
+    brc_progress_finish(&pack->progress);
+    status = finish(pack, fill, &plan, out);
 cleanup:
     brc_pack_free(&pack);
     if (status != BRC_OK) brc_packing_free(out);

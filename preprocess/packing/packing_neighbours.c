@@ -140,6 +140,13 @@ static brc_status make_room(brc_pack *pack)
     return BRC_OK;
 }
 
+int64_t brc_pack_neighbours(const brc_pack *pack, int64_t i, const int32_t **out)
+{
+    const int64_t *const row = pack->row_start + i + i / BRC_PACK_BLOCK;
+    *out = pack->neighbour + row[0];
+    return row[1] - row[0];
+}
+
 brc_status brc_pack_list(brc_pack *pack, double skin)
 {
     pack->skin = skin;

@@ -67,8 +67,9 @@ static void add_contacts(const brc_pack *pack, int64_t i, double force[3], brc_p
     sums->contact_ends += n;
 }
 
-brc_pack_sums brc_pack_forces(brc_pack *pack)
+brc_pack_sums brc_pack_forces(brc_pack *pack, const double (**force)[3])
 {
+    if (force) *force = (const double(*)[3])pack->force;
 #pragma omp parallel for schedule(static) num_threads(pack->n_threads)
     for (int64_t b = 0; b < pack->n_blocks; ++b) {
         brc_pack_sums sums = {0};
@@ -92,12 +93,13 @@ brc_pack_sums brc_pack_forces(brc_pack *pack)
 int brc_pack_contacts(const brc_pack *pack, int64_t i, const int8_t *counts)
 {
     const double *const a = pack->sphere[i];
-    const int64_t *const row = pack->row_start + i + i / BRC_PACK_BLOCK;
+    const int32_t *other;
+    const int64_t n_others = brc_pack_neighbours(pack, i, &other);
     int n = brc_pack_wall_contacts(pack, i);
-    for (int64_t k = row[0]; k < row[1]; ++k) {
-        const double *const b = pack->sphere[pack->neighbour[k]];
+    for (int64_t k = 0; k < n_others; ++k) {
+        const double *const b = pack->sphere[other[k]];
         const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], touch = a[3] + b[3];
-        n += counts[pack->neighbour[k]] && x * x + y * y + z * z < touch * touch;
+        n += counts[other[k]] && x * x + y * y + z * z < touch * touch;
     }
     return n;
 }
@@ -173,7 +175,7 @@ brc_status brc_pack_relax(brc_pack *pack, double tolerance, int64_t most, brc_pa
     BRC_TRY(brc_pack_list(pack, skin));
     *converged = false;
     for (int64_t k = 0; k < most; ++k) {
-        *sums = brc_pack_forces(pack);
+        *sums = brc_pack_forces(pack, NULL);
         brc_progress_update(pack->progress, ++pack->iterations);
         const double ends = (double)(sums->contact_ends > 0 ? sums->contact_ends : 1);
         const double mean_force = sums->contact_force / ends;

@@ -98,6 +98,37 @@ static void a_refused_resize_leaves_the_block(void **state)
     brc_memory_free(block);
 }
 
+/* Two blocks; handed: *out gets the second. */
+static brc_status hold(brc_context *context, int64_t second, int64_t *during, double **out)
+{
+    BRC_LOCAL(context, 100, int32_t, first, "counts");
+    BRC_LOCAL(context, second, double, numbers, "numbers");
+    assert_true(first[99] == 0);
+    *during = brc_memory_held();
+    if (!out) return BRC_OK;
+    *out = numbers;
+    numbers = NULL;
+    return BRC_OK;
+}
+
+static void blocks_of_a_scope_end_with_it_wherever_it_returns(void **state)
+{
+    brc_context *context = *state;
+    const int64_t before = brc_memory_held();
+    int64_t during = 0;
+    double *kept = NULL;
+    assert_int_equal(hold(context, 10, &during, NULL), BRC_OK);
+    assert_int_equal(during - before, 448 + 128);
+    assert_int_equal(brc_memory_held(), before);
+    assert_int_equal(hold(context, -1, &during, &kept), BRC_NO_MEMORY);
+    assert_null(kept);
+    assert_int_equal(brc_memory_held(), before);
+    assert_int_equal(hold(context, 10, &during, &kept), BRC_OK);
+    assert_int_equal(brc_memory_held() - before, 128);
+    brc_memory_free(kept);
+    assert_int_equal(brc_memory_held(), before);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -107,6 +138,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_cannot_be_had_is_refused_with_its_name_and_size, begin, end),
         cmocka_unit_test_setup_teardown(overflow_and_negative_counts_are_refused, begin, end),
         cmocka_unit_test_setup_teardown(a_refused_resize_leaves_the_block, begin, end),
+        cmocka_unit_test_setup_teardown(blocks_of_a_scope_end_with_it_wherever_it_returns, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

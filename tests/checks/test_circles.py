@@ -9,7 +9,9 @@ CALL = re.compile(r"\b([a-z]\w+)\s*\(")
 
 
 def definitions(text):
-    """(name, static) of the functions at the left margin."""
+    """(name, static) of the functions at the left margin, and of those that BRC_READ and BRC_OF_WANTS make."""
+    for name in re.findall(r"^BRC_(?:READ|OF_WANTS)\([^,]+, (\w+),", text, re.M):
+        yield name, False
     lines = text.split("\n")
     for number, line in enumerate(lines):
         if line == "{":
@@ -62,5 +64,7 @@ def circles(files):
 results = []
 for room in ROOMS:
     results.append(repository.report(f"circles of {room}", circles, repository.read(r"^%s.*\.c$" % room),
-                                     {"two files": {room + "a.c": "void first(void)\n{\n    second();\n}\n", room + "b.c": "void second(void)\n{\n    first();\n}\n"}}))
+                                     {"two files": {room + "a.c": "void first(void)\n{\n    second();\n}\n", room + "b.c": "void second(void)\n{\n    first();\n}\n"},
+                                      "a value that is read": {room + "a.c": "void first(void)\n{\n    second(s);\n}\nBRC_READ(int, third, s->n)\n",
+                                                               room + "b.c": "void second(int s)\n{\n    third(s);\n}\n"}}))
 repository.finish(results)

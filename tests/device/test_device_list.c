@@ -4,7 +4,6 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
-#include "../../host/device/device_internal.h"
 #include "../../host/device/device_list.h"
 #include <stdio.h>
 #include <stdlib.h>

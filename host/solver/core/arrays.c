@@ -1,85 +1,84 @@
 /* Host doubles by element id <-> device rows. */
 #include "../../device/shares.h"
 #include "core_internal.h"
+#include <math.h>
 
 static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count, int bytes_each)
 {
     if (count == 0) return BRC_OK;
     if (bytes_each == 8) return brc_buffer_write(buffer, 0, values, count * 8);
-    float *narrow = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "narrowed values"));
+    BRC_LOCAL(s->context, count, float, narrow, "narrowed values");
     for (int64_t i = 0; i < count; ++i)
         narrow[i] = (float)values[i];
-    const brc_status status = brc_buffer_write(buffer, 0, narrow, count * 4);
-    brc_memory_free(narrow);
-    return status;
+    return brc_buffer_write(buffer, 0, narrow, count * 4);
 }
 
 brc_status brc_upload_coeff(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count)
 {
-    return upload(s, buffer, values, count, brc_precision_coeff_bytes(brc_device_get_precision(s->device)));
+    return upload(s, buffer, values, count, brc_coeff_bytes(s));
 }
 
 brc_status brc_upload_state(brc_simulation *s, brc_buffer *buffer, const double *values, int64_t count)
 {
-    return upload(s, buffer, values, count, brc_precision_state_bytes(brc_device_get_precision(s->device)));
+    return upload(s, buffer, values, count, brc_state_bytes(s));
 }
 
 brc_status brc_download(brc_simulation *s, brc_buffer *buffer, int bytes_each, double *values, int64_t count)
 {
     if (count == 0) return BRC_OK;
     if (bytes_each == 8) return brc_buffer_read(buffer, 0, values, count * 8);
-    float *narrow = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "narrow values"));
-    const brc_status status = brc_buffer_read(buffer, 0, narrow, count * 4);
-    if (status == BRC_OK)
-        for (int64_t i = 0; i < count; ++i)
-            values[i] = narrow[i];
-    brc_memory_free(narrow);
-    return status;
+    BRC_LOCAL(s->context, count, float, narrow, "narrow values");
+    BRC_TRY(brc_buffer_read(buffer, 0, narrow, count * 4));
+    for (int64_t i = 0; i < count; ++i)
+        values[i] = narrow[i];
+    return BRC_OK;
 }
 
 brc_status brc_state_to_rows(brc_simulation *s, brc_buffer *buffer, const double *values, int width, double fill)
 {
     const brc_layout *layout = s->layout;
-    double *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, (int64_t)layout->n_rows * width, "rows"));
+    BRC_LOCAL(s->context, (int64_t)layout->n_rows * width, double, rows, "rows");
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int64_t e = layout->element_of_row[r];
         for (int c = 0; c < width; ++c)
             rows[(int64_t)r * width + c] = e < 0 ? fill : values[e * width + c];
     }
-    const brc_status status = brc_upload_state(s, buffer, rows, (int64_t)layout->n_rows * width);
-    brc_memory_free(rows);
-    return status;
+    return brc_upload_state(s, buffer, rows, (int64_t)layout->n_rows * width);
 }
 
 static brc_status from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width, int bytes_each)
 {
     const brc_layout *layout = s->layout;
-    double *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, (int64_t)layout->n_rows * width, "rows"));
-    const brc_status status = brc_download(s, buffer, bytes_each, rows, (int64_t)layout->n_rows * width);
-    if (status == BRC_OK)
-        for (int64_t e = 0; e < s->domain->n_elements; ++e)
-            for (int c = 0; c < width; ++c)
-                values[e * width + c] = rows[(int64_t)layout->row_of_element[e] * width + c];
-    brc_memory_free(rows);
-    return status;
+    BRC_LOCAL(s->context, (int64_t)layout->n_rows * width, double, rows, "rows");
+    BRC_TRY(brc_download(s, buffer, bytes_each, rows, (int64_t)layout->n_rows * width));
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        for (int c = 0; c < width; ++c)
+            values[e * width + c] = rows[(int64_t)layout->row_of_element[e] * width + c];
+    return BRC_OK;
 }
 
 brc_status brc_state_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width)
 {
-    return from_rows(s, buffer, values, width, brc_precision_state_bytes(brc_device_get_precision(s->device)));
+    return from_rows(s, buffer, values, width, brc_state_bytes(s));
 }
 
 brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width)
 {
-    return from_rows(s, buffer, values, width, brc_precision_coeff_bytes(brc_device_get_precision(s->device)));
+    return from_rows(s, buffer, values, width, brc_coeff_bytes(s));
 }
 
 /* Room for LANE_SPARE numbers of portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
+
+brc_status brc_largest_coeff(brc_simulation *s, brc_buffer *buffer, double *out)
+{
+    *out = 0;
+    BRC_LOCAL(s->context, s->domain->n_elements, double, value, "numbers of elements");
+    BRC_TRY(brc_coeff_from_rows(s, buffer, value, 1));
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        *out = fmax(*out, value[e]);
+    return BRC_OK;
+}
 
 static brc_status new_array(brc_simulation *s, brc_buffer **out, int64_t count, int bytes, const char *what)
 {
@@ -91,12 +90,12 @@ static brc_status new_array(brc_simulation *s, brc_buffer **out, int64_t count, 
 
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return new_array(s, out, count, brc_precision_state_bytes(brc_device_get_precision(s->device)), what);
+    return new_array(s, out, count, brc_state_bytes(s), what);
 }
 
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what)
 {
-    return new_array(s, out, count, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), what);
+    return new_array(s, out, count, brc_coeff_bytes(s), what);
 }
 
 brc_status brc_upload_int(brc_buffer *buffer, const int32_t *values, int64_t count)

@@ -2,7 +2,7 @@
 #ifndef BRC_SOLVER_CORE_INTERNAL_H
 #define BRC_SOLVER_CORE_INTERNAL_H
 
-#include "solver.h"
+#include "rings.h"
 
 /* Numbers of the scene that kernels ask for by name; those of one material where there is one (kernels gather those of
  * several). */
@@ -20,6 +20,18 @@ typedef struct brc_hook_list {
     int n;
     const brc_hooked *at[BRC_MOST_EFFECTS];
 } brc_hook_list;
+
+struct brc_rings {
+    brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *replace_turns, *delta, *book;
+    brc_buffer *touched, *level; /* [n_rows] */
+    brc_buffer *count;           /* [BRC_RING_KINDS][blocks + 1] */
+    int32_t *count_read;         /* the same on the host */
+    brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
+    brc_ring_list around;        /* the bonds that broke in this step */
+    double half_kick;            /* brc_rings_begin */
+    bool placed;                 /* level holds places (rings.cl) */
+    bool whole_force;            /* for comparison: fluxes and forces of all elements */
+};
 
 struct brc_core {
     brc_pass *passes; /* all there are, of effects too (passes.h) */

@@ -6,78 +6,30 @@
 /* Room for LANE_SPARE numbers of portable.h: gathers read whole vectors. */
 enum { SPARE = 8 };
 
-int64_t brc_each_row(const brc_wants *w)
-{
-    return w->layout->n_rows;
-}
-int64_t brc_each_block(const brc_wants *w)
-{
-    return w->layout->n_rows;
-}
-int64_t brc_each_row_end(const brc_wants *w)
-{
-    return (int64_t)w->layout->n_rows + 1;
-}
-int64_t brc_each_entry(const brc_wants *w)
-{
-    return w->layout->n_slots * w->layout->slice;
-}
-int64_t brc_each_slice(const brc_wants *w)
-{
-    return w->layout->n_slices;
-}
-int64_t brc_each_slice_end(const brc_wants *w)
-{
-    return (int64_t)w->layout->n_slices + 1;
-}
-int64_t brc_each_boundary(const brc_wants *w)
-{
-    return (int64_t)w->layout->n_boundary * w->layout->slice;
-}
-int64_t brc_each_group(const brc_wants *w)
-{
-    return w->n_groups;
-}
-int64_t brc_each_striker(const brc_wants *w)
-{
-    return w->scene->n_strikers;
-}
-int64_t brc_each_listed(const brc_wants *w)
-{
-    return w->n_listed;
-}
-int64_t brc_each_listed_end(const brc_wants *w)
-{
-    return w->n_listed + 1;
-}
-int64_t brc_each_once(const brc_wants *w)
-{
-    return (void)w, 1;
-}
+BRC_OF_WANTS(int64_t, brc_each_row, w->layout->n_rows)
+BRC_OF_WANTS(int64_t, brc_each_block, w->layout->n_rows)
+BRC_OF_WANTS(int64_t, brc_each_row_end, (int64_t)w->layout->n_rows + 1)
+BRC_OF_WANTS(int64_t, brc_each_entry, w->layout->n_slots * w->layout->slice)
+BRC_OF_WANTS(int64_t, brc_each_slice, w->layout->n_slices)
+BRC_OF_WANTS(int64_t, brc_each_slice_end, (int64_t)w->layout->n_slices + 1)
+BRC_OF_WANTS(int64_t, brc_each_boundary, (int64_t)w->layout->n_boundary * w->layout->slice)
+BRC_OF_WANTS(int64_t, brc_each_group, w->n_groups)
+BRC_OF_WANTS(int64_t, brc_each_striker, w->scene->n_strikers)
+BRC_OF_WANTS(int64_t, brc_each_listed, w->n_listed)
+BRC_OF_WANTS(int64_t, brc_each_listed_end, w->n_listed + 1)
+BRC_OF_WANTS(int64_t, brc_each_once, ((void)w, 1))
 
-bool brc_wants_cells(const brc_wants *w)
+BRC_OF_WANTS(bool, brc_wants_cells, w->model->element == BRC_ELEMENT_CELL)
+BRC_OF_WANTS(bool, brc_wants_spheres, w->model->element == BRC_ELEMENT_SPHERE)
+BRC_OF_WANTS(bool, brc_wants_turning, w->model->turns)
+BRC_OF_WANTS(bool, brc_wants_deforming, w->model->deforms)
+BRC_OF_WANTS(bool, brc_wants_rigid_cells, brc_wants_cells(w) && !w->model->deforms)
+BRC_OF_WANTS(bool, brc_wants_many, w->many_materials)
+bool brc_wants_solver(const brc_wants *w, brc_solver_kind solver)
 {
-    return w->model->element == BRC_ELEMENT_CELL;
-}
-bool brc_wants_spheres(const brc_wants *w)
-{
-    return w->model->element == BRC_ELEMENT_SPHERE;
-}
-bool brc_wants_turning(const brc_wants *w)
-{
-    return w->model->turns;
-}
-bool brc_wants_deforming(const brc_wants *w)
-{
-    return w->model->deforms;
-}
-bool brc_wants_rigid_cells(const brc_wants *w)
-{
-    return brc_wants_cells(w) && !w->model->deforms;
-}
-bool brc_wants_many(const brc_wants *w)
-{
-    return w->many_materials;
+    for (int32_t i = 0; i < w->scene->n_stages; ++i)
+        if (w->scene->stages[i].solver == solver) return true;
+    return false;
 }
 
 int64_t brc_field_bytes(const brc_field_row *field, const brc_wants *wants)

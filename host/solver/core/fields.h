@@ -65,6 +65,25 @@ typedef struct brc_field_row {
 #define BRC_NOT_KEPT NULL, BRC_KEEP_ALL
 #define BRC_KEPT(name, which) name, which
 #define BRC_FIELD_AT(owner, member) offsetof(owner, member)
+/* A row of a field that its owner calls as kernels do: of which a checkpoint has a part, all, nothing. Where in the
+ * owner: AT of the file. */
+#define BRC_PART_KEPT(id, each, numbers, kind, when, words, in, as, which)                                             \
+    {                                                                                                                  \
+        .name = #id, .count = each, .width = numbers, .number = BRC_FIELD_##kind, .wanted = when, .at = AT(id),        \
+        .what = words, .unit = in, .kept = as, .keep = which                                                           \
+    }
+#define BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, as)                                                   \
+    BRC_PART_KEPT(id, each, numbers, kind, when, words, in, as, BRC_KEEP_ALL)
+#define BRC_FIELD(id, each, numbers, kind, when, words, in)                                                            \
+    BRC_KEPT_FIELD(id, each, numbers, kind, when, words, in, NULL)
+/* A function of w, what a run wants; whether a field or table is wanted; how many things have one. */
+#define BRC_OF_WANTS(type, name, value)                                                                                \
+    type name(const brc_wants *w)                                                                                      \
+    {                                                                                                                  \
+        return value;                                                                                                  \
+    }
+#define BRC_WANTED(name, condition) static BRC_OF_WANTS(bool, name, condition)
+#define BRC_COUNTED(name, number) static BRC_OF_WANTS(int64_t, name, number)
 
 typedef struct brc_field_table {
     const char *owner; /* for listings */
@@ -93,10 +112,11 @@ int64_t brc_each_once(const brc_wants *wants);
 /* ---- what a field is wanted for ---- */
 bool brc_wants_cells(const brc_wants *wants); /* elements are cells; spheres */
 bool brc_wants_spheres(const brc_wants *wants);
-bool brc_wants_turning(const brc_wants *wants);     /* elements have rotations */
-bool brc_wants_deforming(const brc_wants *wants);   /* elements have displacement gradients */
-bool brc_wants_rigid_cells(const brc_wants *wants); /* cells that have none */
-bool brc_wants_many(const brc_wants *wants);        /* several materials */
+bool brc_wants_turning(const brc_wants *wants);                        /* elements have rotations */
+bool brc_wants_deforming(const brc_wants *wants);                      /* elements have displacement gradients */
+bool brc_wants_rigid_cells(const brc_wants *wants);                    /* cells that have none */
+bool brc_wants_many(const brc_wants *wants);                           /* several materials */
+bool brc_wants_solver(const brc_wants *wants, brc_solver_kind solver); /* some stage has it */
 
 /* What scene and domain want of a device; layout, pieces and material [n_elements] are borrowed. *out asks for no
  * list. */

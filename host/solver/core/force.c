@@ -1,6 +1,6 @@
 /* One evaluation of all forces: those of the model's bonds, then what effects add, in the order of
  * their hook. */
-#include "rings.h"
+#include "core_internal.h"
 
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
 {

@@ -41,8 +41,7 @@ brc_status brc_geometry_rows(brc_simulation *s, brc_buffer *buffer, int width, b
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
-    double *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice * width, "neighbour rows"));
+    BRC_LOCAL(s->context, layout->n_slots * slice * width, double, rows, "neighbour rows");
 #pragma omp parallel for schedule(static)
     for (int32_t block = 0; block < layout->n_slices; ++block)
         for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
@@ -54,9 +53,7 @@ brc_status brc_geometry_rows(brc_simulation *s, brc_buffer *buffer, int width, b
                 for (int c = 0; c < width; ++c)
                     rows[((int64_t)slot * width + c) * slice + l] = value[c];
             }
-    const brc_status status = brc_upload_coeff(s, buffer, rows, layout->n_slots * slice * width);
-    brc_memory_free(rows);
-    return status;
+    return brc_upload_coeff(s, buffer, rows, layout->n_slots * slice * width);
 }
 
 static void branch_values(const brc_simulation *s, int64_t e, int64_t h, double out[3])
@@ -77,8 +74,7 @@ static brc_status upload_connectivity(brc_simulation *s)
     BRC_TRY(brc_upload_int(s->core->row_start, layout->slot_start, layout->n_slices + 1));
     BRC_TRY(brc_upload_int(s->core->boundary, layout->boundary, layout->n_slices));
     BRC_TRY(brc_upload_int(s->core->asked_ahead, layout->ahead, layout->n_rows));
-    int32_t *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_slots * slice, "neighbours"));
+    BRC_LOCAL(s->context, layout->n_slots * slice, int32_t, rows, "neighbours");
     for (int32_t block = 0; block < layout->n_slices; ++block)
         for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
             for (int l = 0; l < slice; ++l) {
@@ -86,9 +82,7 @@ static brc_status upload_connectivity(brc_simulation *s)
                 rows[(int64_t)slot * slice + l] =
                     h < 0 ? block * slice + l : layout->row_of_element[s->domain->neighbour[h]];
             }
-    const brc_status status = brc_upload_int(s->core->neighbour, rows, layout->n_slots * slice);
-    brc_memory_free(rows);
-    return status;
+    return brc_upload_int(s->core->neighbour, rows, layout->n_slots * slice);
 }
 
 /* Least-squares matrix of an element: sum w R (x) R, w 1 or S/L. */
@@ -115,8 +109,7 @@ brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refin
     const int slice = layout->slice;
     const double least_span =
         brc_device_get_precision(s->device) == BRC_DOUBLE ? span_threshold : single_span_threshold;
-    double *blocks = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, (int64_t)layout->n_rows * 6, "least-squares matrices"));
+    BRC_LOCAL(s->context, (int64_t)layout->n_rows * 6, double, blocks, "least-squares matrices");
     int64_t flat = 0;
 #pragma omp parallel for schedule(static) reduction(+ : flat)
     for (int32_t r = 0; r < layout->n_rows; ++r) {
@@ -136,38 +129,31 @@ brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refin
             "%lld of %lld elements have neighbours that do not span space; their gradient is taken over the directions "
             "they do span",
             (long long)flat, (long long)s->domain->n_elements);
-    const brc_status status = brc_upload_coeff(s, s->core->inv_shape, blocks, (int64_t)layout->n_rows * 6);
-    brc_memory_free(blocks);
-    return status;
+    return brc_upload_coeff(s, s->core->inv_shape, blocks, (int64_t)layout->n_rows * 6);
 }
 
 static brc_status upload_masses(brc_simulation *s)
 {
     const brc_domain *d = s->domain;
     const brc_layout *layout = s->layout;
-    double *values = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY(
-        BRC_ALLOCATE(s->context, &values, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, "masses"));
+    BRC_LOCAL(s->context, layout->n_rows > d->n_elements ? layout->n_rows : d->n_elements, double, values, "masses");
     for (int64_t e = 0; e < d->n_elements; ++e)
-        values[e] = d->volume[e] * s->elastic[s->material_of_element[e]].density;
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->core->mass, values, 1, 1));
-    if (s->core->volume) BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->core->volume, d->volume, 1, 1));
+        values[e] = brc_mass_of_element(s, e);
+    BRC_TRY(brc_state_to_rows(s, s->core->mass, values, 1, 1));
+    if (s->core->volume) BRC_TRY(brc_state_to_rows(s, s->core->volume, d->volume, 1, 1));
     if (s->core->inertia) {
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
         for (int64_t e = 0; e < d->n_elements; ++e)
             values[e] = s->elastic[s->material_of_element[e]].density *
                         (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
-        BRC_TRY_OR(cleanup, brc_state_to_rows(s, s->core->inertia, values, 1, 1));
+        BRC_TRY(brc_state_to_rows(s, s->core->inertia, values, 1, 1));
     }
     if (s->core->inv_volume) {
         for (int32_t r = 0; r < layout->n_rows; ++r)
             values[r] = layout->element_of_row[r] < 0 ? 1 : 1 / d->volume[layout->element_of_row[r]];
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->inv_volume, values, layout->n_rows));
+        BRC_TRY(brc_upload_coeff(s, s->core->inv_volume, values, layout->n_rows));
     }
-cleanup:
-    brc_memory_free(values);
-    return status;
+    return BRC_OK;
 }
 
 brc_status brc_geometry_materials(brc_simulation *s)
@@ -175,12 +161,10 @@ brc_status brc_geometry_materials(brc_simulation *s)
     if (!brc_device_has_many_materials(s->device)) return BRC_OK;
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
-    double *blocks = NULL, *modulus = NULL, *ell = NULL, *lame = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &blocks, (int64_t)layout->n_rows * 4, "materials of elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &modulus, layout->n_rows, "materials of elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ell, layout->n_rows, "materials of elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lame, (int64_t)layout->n_rows * 3, "materials of elements"));
+    BRC_LOCAL(s->context, (int64_t)layout->n_rows * 4, double, blocks, "materials of elements");
+    BRC_LOCAL(s->context, layout->n_rows, double, modulus, "materials of elements");
+    BRC_LOCAL(s->context, layout->n_rows, double, ell, "materials of elements");
+    BRC_LOCAL(s->context, (int64_t)layout->n_rows * 3, double, lame, "materials of elements");
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
         const brc_elastic *m = s->elastic + (e < 0 ? 0 : s->material_of_element[e]);
@@ -194,65 +178,46 @@ brc_status brc_geometry_materials(brc_simulation *s)
         lame[3 * (int64_t)r + 2] = m->young;
     }
     if (s->core->lame_of) {
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->lame_of, lame, (int64_t)layout->n_rows * 3));
+        BRC_TRY(brc_upload_coeff(s, s->core->lame_of, lame, (int64_t)layout->n_rows * 3));
     } else {
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->material, blocks, (int64_t)layout->n_rows * 4));
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->modulus, modulus, layout->n_rows));
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->core->ell_of, ell, layout->n_rows));
+        BRC_TRY(brc_upload_coeff(s, s->core->material, blocks, (int64_t)layout->n_rows * 4));
+        BRC_TRY(brc_upload_coeff(s, s->core->modulus, modulus, layout->n_rows));
+        BRC_TRY(brc_upload_coeff(s, s->core->ell_of, ell, layout->n_rows));
     }
-cleanup:
-    brc_memory_free(blocks);
-    brc_memory_free(modulus);
-    brc_memory_free(ell);
-    brc_memory_free(lame);
-    return status;
+    return BRC_OK;
 }
 
-static bool many_dlsm(const brc_wants *w)
-{
-    return w->many_materials && brc_wants_deforming(w);
-}
-static bool many_published(const brc_wants *w)
-{
-    return w->many_materials && brc_wants_rigid_cells(w);
-}
-static bool many_beams(const brc_wants *w)
-{
-    return w->many_materials && brc_wants_spheres(w);
-}
+BRC_WANTED(many_dlsm, w->many_materials &&brc_wants_deforming(w))
+BRC_WANTED(many_published, w->many_materials &&brc_wants_rigid_cells(w))
+BRC_WANTED(many_beams, w->many_materials &&brc_wants_spheres(w))
 
 #define AT(member) BRC_FIELD_AT(struct brc_core, member)
 static const brc_field_row rows[] = {
-    {"row_start", brc_each_slice_end, 1, BRC_FIELD_INT, NULL, AT(row_start), "slice starts", "-", BRC_NOT_KEPT},
-    {"neighbour", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(neighbour), "neighbours", "-", BRC_NOT_KEPT},
+    BRC_FIELD(row_start, brc_each_slice_end, 1, INT, NULL, "slice starts", "-"),
+    BRC_FIELD(neighbour, brc_each_entry, 1, INT, NULL, "neighbours", "-"),
     {"ahead", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(asked_ahead), "rows asked for ahead", "-", BRC_NOT_KEPT},
-    {"boundary", brc_each_slice, 1, BRC_FIELD_INT, NULL, AT(boundary), "boundary blocks", "-", BRC_NOT_KEPT},
-    {"mass", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses", "kg", BRC_NOT_KEPT},
-    {"volume", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_rigid_cells, AT(volume), "volumes", "m^3", BRC_NOT_KEPT},
-    {"inertia", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_turning, AT(inertia), "moments of inertia", "kg m^2",
-     BRC_NOT_KEPT},
-    {"inv_volume", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(inv_volume), "inverse volumes", "1/m^3",
-     BRC_NOT_KEPT},
-    {"inv_shape", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_cells, AT(inv_shape), "least-squares matrices", "1/m^3",
-     BRC_KEPT("cells.inverse_shape", BRC_KEEP_OWNERS)},
-    {"area", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_deforming, AT(area), "area vectors", "m^2",
-     BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
-    {"offset", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_deforming, AT(offset), "face offsets", "m", BRC_NOT_KEPT},
-    {"ratio", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(ratio), "length over area", "1/m",
-     BRC_KEPT("cells.ratio", BRC_KEEP_BROKEN)},
+    BRC_FIELD(boundary, brc_each_slice, 1, INT, NULL, "boundary blocks", "-"),
+    BRC_FIELD(mass, brc_each_row, 1, STATE, NULL, "masses", "kg"),
+    BRC_FIELD(volume, brc_each_row, 1, STATE, brc_wants_rigid_cells, "volumes", "m^3"),
+    BRC_FIELD(inertia, brc_each_row, 1, STATE, brc_wants_turning, "moments of inertia", "kg m^2"),
+    BRC_FIELD(inv_volume, brc_each_row, 1, COEFF, brc_wants_deforming, "inverse volumes", "1/m^3"),
+    BRC_PART_KEPT(inv_shape, brc_each_block, 6, COEFF, brc_wants_cells, "least-squares matrices", "1/m^3",
+                  "cells.inverse_shape", BRC_KEEP_OWNERS),
+    BRC_PART_KEPT(area, brc_each_entry, 3, COEFF, brc_wants_deforming, "area vectors", "m^2", "cells.area",
+                  BRC_KEEP_BROKEN),
+    BRC_FIELD(offset, brc_each_entry, 3, COEFF, brc_wants_deforming, "face offsets", "m"),
+    BRC_PART_KEPT(ratio, brc_each_entry, 1, COEFF, brc_wants_deforming, "length over area", "1/m", "cells.ratio",
+                  BRC_KEEP_BROKEN),
     {"branch", brc_each_entry, 3, BRC_FIELD_COEFF, brc_wants_turning, AT(offset), "branches", "m", BRC_NOT_KEPT},
-    {"area", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(area), "face areas", "m^2",
-     BRC_KEPT("cells.area", BRC_KEEP_BROKEN)},
+    BRC_PART_KEPT(area, brc_each_entry, 1, COEFF, brc_wants_rigid_cells, "face areas", "m^2", "cells.area",
+                  BRC_KEEP_BROKEN),
     {"inv_length", brc_each_entry, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(ratio), "inverse lengths", "1/m",
      BRC_KEPT("fracture.inverse_length", BRC_KEEP_BROKEN)},
-    {"material", brc_each_block, 4, BRC_FIELD_COEFF, many_dlsm, AT(material), "materials of elements", "Pa, -",
-     BRC_NOT_KEPT},
-    {"modulus", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(modulus), "stabilisation moduli", "Pa", BRC_NOT_KEPT},
-    {"ell_of", brc_each_row, 1, BRC_FIELD_COEFF, many_dlsm, AT(ell_of), "compaction ratios", "-", BRC_NOT_KEPT},
-    {"lame_of", brc_each_row, 3, BRC_FIELD_COEFF, many_published, AT(lame_of), "materials of elements", "Pa",
-     BRC_NOT_KEPT},
-    {"beam_of", brc_each_row, 3, BRC_FIELD_COEFF, many_beams, AT(beam_of), "beams of elements", "N, N m^2",
-     BRC_NOT_KEPT},
+    BRC_FIELD(material, brc_each_block, 4, COEFF, many_dlsm, "materials of elements", "Pa, -"),
+    BRC_FIELD(modulus, brc_each_row, 1, COEFF, many_dlsm, "stabilisation moduli", "Pa"),
+    BRC_FIELD(ell_of, brc_each_row, 1, COEFF, many_dlsm, "compaction ratios", "-"),
+    BRC_FIELD(lame_of, brc_each_row, 3, COEFF, many_published, "materials of elements", "Pa"),
+    BRC_FIELD(beam_of, brc_each_row, 3, COEFF, many_beams, "beams of elements", "N, N m^2"),
 };
 BRC_FIELD_TABLE(brc_geometry_fields, "geometry", BRC_LIFE_RUN, NULL, rows);
 

@@ -121,28 +121,28 @@ bool brc_effects_follow_surfaces(const brc_simulation *s)
     return false;
 }
 
-int64_t brc_effects_next_look(const brc_simulation *s)
+int64_t brc_effects_next_probe(const brc_simulation *s)
 {
     int64_t next = INT64_MAX;
     for (int k = 0; k < s->core->n_effects; ++k) {
-        const int64_t n = s->core->effect[k]->looks ? s->core->effect[k]->looks->next(s) : INT64_MAX;
+        const int64_t n = s->core->effect[k]->probes ? s->core->effect[k]->probes->next(s) : INT64_MAX;
         if (n < next) next = n;
     }
     return next;
 }
 
-void brc_effects_begin_looks(brc_simulation *s)
+void brc_effects_begin_probes(brc_simulation *s)
 {
     for (int k = 0; k < s->core->n_effects; ++k)
-        if (s->core->effect[k]->looks) s->core->effect[k]->looks->begin(s);
+        if (s->core->effect[k]->probes) s->core->effect[k]->probes->begin(s);
 }
 
-brc_status brc_effects_end_looks(brc_simulation *s, bool *stands)
+brc_status brc_effects_end_probes(brc_simulation *s, bool *stands)
 {
     *stands = true;
     for (int k = 0; k < s->core->n_effects; ++k) {
         bool found_nothing = true;
-        if (s->core->effect[k]->looks) BRC_TRY(s->core->effect[k]->looks->end(s, &found_nothing));
+        if (s->core->effect[k]->probes) BRC_TRY(s->core->effect[k]->probes->end(s, &found_nothing));
         *stands = *stands && found_nothing;
     }
     return BRC_OK;

@@ -36,11 +36,9 @@ static bool has_free_face(const brc_domain *domain, int32_t element)
 /* Elements in storage order. */
 static brc_status order_elements(brc_context *context, const brc_domain *domain, int32_t slice, sort_item *items)
 {
-    int32_t *order = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &order, domain->n_elements, "storage order"));
-    BRC_TRY_OR(cleanup, brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds,
-                                          omp_get_max_threads(), order));
+    BRC_LOCAL(context, domain->n_elements, int32_t, order, "storage order");
+    BRC_TRY(
+        brc_order_hilbert(context, domain->position, domain->n_elements, domain->bounds, omp_get_max_threads(), order));
     /* inside a window: elements with free faces first, then by falling degree, then along the curve */
     const int64_t window = WINDOW_SLICES * slice < WINDOW_OF_GPU ? WINDOW_SLICES * slice : WINDOW_OF_GPU;
     for (int64_t begin = 0; begin < domain->n_elements; begin += window) {
@@ -53,27 +51,23 @@ static brc_status order_elements(brc_context *context, const brc_domain *domain,
         }
         qsort(items + begin, (size_t)(end - begin), sizeof *items, compare_items);
     }
-cleanup:
-    brc_memory_free(order);
-    return status;
+    return BRC_OK;
 }
 
 brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int32_t slice, brc_layout **out)
 {
     *out = NULL;
-    brc_layout *layout = NULL;
-    sort_item *items = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_layout_free) brc_layout *layout = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &layout, 1, "storage layout"));
     layout->slice = slice;
     layout->n_slices = (int32_t)((domain->n_elements + slice - 1) / slice);
     layout->n_rows = layout->n_slices * slice;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &items, domain->n_elements, "storage order"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->row_of_element, domain->n_elements, "storage rows"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->element_of_row, layout->n_rows, "storage rows"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->slot_start, layout->n_slices + 1, "slice starts"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->boundary, layout->n_slices, "boundary blocks"));
-    BRC_TRY_OR(cleanup, order_elements(context, domain, slice, items));
+    BRC_LOCAL(context, domain->n_elements, sort_item, items, "storage order");
+    BRC_TRY(BRC_ALLOCATE(context, &layout->row_of_element, domain->n_elements, "storage rows"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->element_of_row, layout->n_rows, "storage rows"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->slot_start, layout->n_slices + 1, "slice starts"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->boundary, layout->n_slices, "boundary blocks"));
+    BRC_TRY(order_elements(context, domain, slice, items));
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         layout->element_of_row[r] = r < domain->n_elements ? items[r].element : -1;
         if (r < domain->n_elements) layout->row_of_element[items[r].element] = r;
@@ -88,17 +82,15 @@ brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int
             boundary = boundary || has_free_face(domain, e);
         }
         layout->n_slots += longest;
-        if (layout->n_slots * slice > MOST_ENTRIES) {
-            status = BRC_FAIL(context, BRC_BAD_INPUT,
-                              "the domain has %lld elements: more neighbour entries than %d, the most that kernels "
-                              "index; use fewer elements",
-                              (long long)domain->n_elements, MOST_ENTRIES);
-            goto cleanup;
-        }
+        if (layout->n_slots * slice > MOST_ENTRIES)
+            return BRC_FAIL(context, BRC_BAD_INPUT,
+                            "the domain has %lld elements: more neighbour entries than %d, the most that kernels "
+                            "index; use fewer elements",
+                            (long long)domain->n_elements, MOST_ENTRIES);
         layout->slot_start[s + 1] = (int32_t)layout->n_slots;
         layout->boundary[s] = boundary ? layout->n_boundary++ : -1;
     }
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &layout->half_edge, layout->n_slots * slice, "stored half-edges"));
+    BRC_TRY(BRC_ALLOCATE(context, &layout->half_edge, layout->n_slots * slice, "stored half-edges"));
     for (int32_t s = 0; s < layout->n_slices; ++s)
         for (int32_t slot = layout->slot_start[s]; slot < layout->slot_start[s + 1]; ++slot)
             for (int32_t l = 0; l < slice; ++l) {
@@ -107,13 +99,10 @@ brc_status brc_layout_create(brc_context *context, const brc_domain *domain, int
                 layout->half_edge[(int64_t)slot * slice + l] =
                     e >= 0 && k < degree(domain, e) ? (int32_t)(domain->row_start[e] + k) : -1;
             }
-    BRC_TRY_OR(cleanup, brc_layout_ahead(context, domain, layout));
+    BRC_TRY(brc_layout_ahead(context, domain, layout));
     *out = layout;
     layout = NULL;
-cleanup:
-    brc_memory_free(items);
-    brc_layout_free(&layout);
-    return status;
+    return BRC_OK;
 }
 
 void brc_layout_all_boundary(brc_layout *layout)
@@ -126,13 +115,11 @@ void brc_layout_all_boundary(brc_layout *layout)
 brc_status brc_layout_twins(brc_context *context, const brc_layout *layout, const brc_domain *domain, int32_t *twin)
 {
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *entry_of = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &entry_of, domain->n_half_edges, "twins"));
+    BRC_LOCAL(context, domain->n_half_edges, int32_t, entry_of, "twins");
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0) entry_of[layout->half_edge[k]] = (int32_t)k;
     for (int64_t k = 0; k < n; ++k)
         twin[k] = layout->half_edge[k] >= 0 ? entry_of[domain->twin[layout->half_edge[k]]] : 0;
-    brc_memory_free(entry_of);
     return BRC_OK;
 }
 

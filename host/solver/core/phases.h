@@ -7,7 +7,7 @@
 
 typedef enum brc_step_phase {
     BRC_PHASE_NONE,     /* no steps are done: nothing is counted */
-    BRC_PHASE_MOTION,   /* integrator, prescribed motion, guard's looks, strikers */
+    BRC_PHASE_MOTION,   /* integrator, prescribed motion, guard's probes, strikers */
     BRC_PHASE_FORCES,   /* elements, bonds and loads, once a step */
     BRC_PHASE_SEARCH,   /* who may touch whom */
     BRC_PHASE_PAIRS,    /* contact of pairs, and what they give to elements and strikers */

@@ -1,4 +1,3 @@
-#include "rings.h"
 #include "core_internal.h"
 #include "../../device/shares.h"
 
@@ -9,24 +8,15 @@ static int32_t blocks_of(const brc_simulation *s)
     return (s->layout->n_rows + BLOCK - 1) / BLOCK;
 }
 
-static bool of_cells(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_cells(w);
-}
-static bool softening_cells(const brc_wants *w)
-{
-    return of_cells(w) && w->softens;
-}
-static int64_t each_count(const brc_wants *w)
-{
-    return BRC_RING_KINDS * (int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1);
-}
+BRC_WANTED(of_cells, w->scene->has_fracture &&brc_wants_cells(w))
+BRC_WANTED(softening_cells, of_cells(w) && w->softens)
+BRC_COUNTED(each_count, BRC_RING_KINDS *(int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1))
 
 #define AT(member) BRC_FIELD_AT(brc_rings, member)
 static const brc_field_row rows[] = {
-    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "rings around broken bonds", "-", BRC_NOT_KEPT},
-    {"level", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(level), "rings around broken bonds", "-", BRC_NOT_KEPT},
-    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "rings around broken bonds", "-", BRC_NOT_KEPT},
+    BRC_FIELD(touched, brc_each_row, 1, INT, NULL, "rings around broken bonds", "-"),
+    BRC_FIELD(level, brc_each_row, 1, INT, NULL, "rings around broken bonds", "-"),
+    BRC_FIELD(count, each_count, 1, INT, NULL, "rings around broken bonds", "-"),
     {"fresh", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces around broken bonds", "N", BRC_NOT_KEPT},
     {"fresh_torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "torques around broken bonds",
      "N m", BRC_NOT_KEPT},
@@ -42,6 +32,35 @@ static const brc_field_row list_rows[BRC_RING_KINDS] = {
 BRC_FIELD_TABLE(brc_ring_list_fields, "rings around breaks", BRC_LIFE_RUN, of_cells, list_rows);
 BRC_FIELD_TABLE(brc_open_list_fields, "rings around open faces", BRC_LIFE_RUN, softening_cells, list_rows);
 BRC_FIELD_TABLE(brc_bonded_list_fields, "cells with bonds", BRC_LIFE_GROWS, of_cells, list_rows);
+
+const brc_ring_list *brc_rings_around(const brc_rings *r)
+{
+    return &r->around;
+}
+const brc_ring_list *brc_request_list(const brc_force_request *request)
+{
+    return request->rings && !request->rings->whole_force ? &request->rings->around : NULL;
+}
+bool brc_rings_are_whole(const brc_rings *r)
+{
+    return r->whole_force;
+}
+void brc_rings_make_whole(brc_rings *r)
+{
+    r->whole_force = true;
+}
+bool brc_rings_are_placed(const brc_rings *r)
+{
+    return r->placed;
+}
+brc_buffer *brc_rings_touched(const brc_rings *r)
+{
+    return r->touched;
+}
+brc_buffer *brc_rings_level(const brc_rings *r)
+{
+    return r->level;
+}
 
 brc_scope brc_scope_of_rings(const brc_rings *rings, const brc_scope *outer)
 {
@@ -111,14 +130,11 @@ static brc_status spread(brc_simulation *s, brc_rings *r, bool by_level, int fro
 /* Several ranks bring what passes over the list read. */
 static brc_status share_list(brc_simulation *s, brc_rings *r, brc_ring_list *list)
 {
-    int32_t *own = NULL;
     const int32_t n = list->n[BRC_RING_KINDS - 1];
     if (list != &r->around || !brc_device_is_shared(s->device)) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &own, n, "rings around broken bonds"));
-    brc_status status = brc_buffer_read(list->upto[BRC_RING_KINDS - 1], 0, own, n * (int64_t)sizeof *own);
-    if (status == BRC_OK) status = brc_rows_among_make(s->device, n, own, &list->among);
-    brc_memory_free(own);
-    return status;
+    BRC_LOCAL(s->context, n, int32_t, own, "rings around broken bonds");
+    BRC_TRY(brc_buffer_read(list->upto[BRC_RING_KINDS - 1], 0, own, n * (int64_t)sizeof *own));
+    return brc_rows_among_make(s->device, n, own, &list->among);
 }
 
 enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in rings.cl */
@@ -153,31 +169,29 @@ brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last
 brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_rings_closing how, brc_ring_list *out)
 {
     r->placed = how == BRC_RINGS_PLACE;
-    return make_list(s, r, r->placed ? PLACED : how == BRC_RINGS_KEEP ? KEPT : ALL, out);
+    return make_list(s, r, r->placed ? PLACED : how == BRC_RINGS_KEEP ? KEPT : ALL, out ? out : &r->around);
 }
 
-brc_status brc_rings_forget(brc_rings *r, const brc_ring_list *list)
+brc_status brc_rings_forget(brc_rings *r)
 {
     if (!r->placed) return BRC_OK;
     r->placed = false;
-    return BRC_RUN(r->forget, list->n[3], {"list", BRC_BUF(list->upto[3])});
+    return BRC_RUN(r->forget, r->around.n[3], {"list", BRC_BUF(r->around.upto[3])});
 }
 
-brc_status brc_rings_touched(brc_simulation *s, brc_rings *r, brc_ring_list *out)
+brc_status brc_rings_list_touched(brc_simulation *s, brc_rings *r)
 {
-    return make_list(s, r, TOUCHED, out);
+    return make_list(s, r, TOUCHED, &r->around);
 }
 
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *r, brc_buffer *number)
 {
-    const int32_t n = s->layout->n_rows;
-    return BRC_RUN(r->seed, n, {"above", BRC_INT(1)}, {"number", BRC_BUF(number)});
+    return BRC_RUN(r->seed, s->layout->n_rows, {"above", BRC_INT(1)}, {"number", BRC_BUF(number)});
 }
 
 brc_status brc_rings_without(brc_simulation *s, brc_rings *r, brc_buffer *number, brc_ring_list *out)
 {
-    const int32_t n = s->layout->n_rows;
-    BRC_TRY(BRC_RUN(r->seed, n, {"above", BRC_INT(0)}, {"number", BRC_BUF(number)}));
+    BRC_TRY(BRC_RUN(r->seed, s->layout->n_rows, {"above", BRC_INT(0)}, {"number", BRC_BUF(number)}));
     return brc_rings_close(s, r, BRC_RINGS_DROP, out);
 }
 
@@ -226,17 +240,23 @@ brc_status brc_rings_replace(brc_simulation *s, const brc_rings *r, int inner, i
     return BRC_RUN(r->replace_turns, n, {"list", BRC_BUF(r->around.upto[inner])});
 }
 
-brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *r)
+brc_status brc_rings_begin(brc_simulation *s, brc_rings *r, double half_kick)
 {
+    r->half_kick = half_kick;
+    if (!r->whole_force) return BRC_OK;
+    BRC_TRY(brc_elements_kick(s, half_kick));
     return books_jumps(s, r) ? brc_buffer_copy(r->force, s->core->force, brc_buffer_bytes(s->core->force)) : BRC_OK;
 }
 
-brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *r)
+brc_status brc_rings_end(brc_simulation *s, const brc_rings *r)
 {
     const int32_t n = s->layout->n_rows;
-    if (!books_jumps(s, r)) return BRC_OK;
-    BRC_TRY(brc_pass_run(r->delta, n));
-    return book_jumps(s, r, n, 0, 0);
+    if (!r->whole_force) return BRC_OK;
+    if (books_jumps(s, r)) {
+        BRC_TRY(brc_pass_run(r->delta, n));
+        BRC_TRY(book_jumps(s, r, n, 0, 0));
+    }
+    return brc_elements_kick(s, -r->half_kick);
 }
 
 brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, brc_buffer *x, double *out)

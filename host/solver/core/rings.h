@@ -16,20 +16,23 @@ typedef struct brc_ring_list {
     struct brc_rows_among *among; /* all of them, for several ranks (device/shares.h) */
 } brc_ring_list;
 
-typedef struct brc_rings {
-    brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *replace_turns, *delta, *book;
-    brc_buffer *touched, *level; /* [n_rows] */
-    brc_buffer *count;           /* [BRC_RING_KINDS][blocks + 1] */
-    int32_t *count_read;         /* the same on the host */
-    brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
-    brc_ring_list around;        /* the bonds that broke in this step */
-    double half_kick;            /* brc_fracture_step */
-    bool placed;                 /* level holds places (rings.cl) */
-    bool whole_force;            /* for comparison: fluxes and forces of all elements */
-} brc_rings;
+/* Rings of one simulation, and what is done within them. */
+typedef struct brc_rings brc_rings;
 
 brc_status brc_rings_create(brc_simulation *s, brc_rings **out);
 void brc_rings_free(brc_rings **rings);
+/* Around the bonds that broke in this step. */
+const brc_ring_list *brc_rings_around(const brc_rings *rings);
+/* The list of an evaluation; NULL: it is of all elements. */
+const brc_ring_list *brc_request_list(const brc_force_request *request);
+/* For comparison: fluxes and forces around breaks are evaluated of all elements. */
+bool brc_rings_are_whole(const brc_rings *rings);
+void brc_rings_make_whole(brc_rings *rings);
+/* level holds places (rings.cl). */
+bool brc_rings_are_placed(const brc_rings *rings);
+/* [n_rows] who is touched; 1 + the ring. */
+brc_buffer *brc_rings_touched(const brc_rings *rings);
+brc_buffer *brc_rings_level(const brc_rings *rings);
 /* Arrays of the rings, and half_kick. */
 brc_scope brc_scope_of_rings(const brc_rings *rings, const brc_scope *outer);
 /* Rows of a brc_ring_list: around breaks, around open faces, of cells that still have bonds (made when most have
@@ -38,17 +41,16 @@ extern const brc_field_table brc_ring_fields, brc_ring_list_fields, brc_open_lis
 /* What is new in ring 0 (touched) and ring 1 since the last list was closed: rings->around, up to n[0] touched ones
  * that were found before, up to n[1] touched ones that were not, up to n[2] those of ring 1 alone. */
 brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);
-/* Those that were touched by now, in n[0]. */
-brc_status brc_rings_touched(brc_simulation *s, brc_rings *rings, brc_ring_list *out);
+/* Those that were touched by now, in n[0] of rings->around. */
+brc_status brc_rings_list_touched(brc_simulation *s, brc_rings *rings);
 /* Rings first to last around all that were touched, into rings->level: 1 + the ring. */
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int last);
 /* All that were touched and the rings that were spread around them; nothing is touched afterwards, or, kept, until
  * cells_share has gone over ring 0. Placed: kept, and level knows the rings and the places in the list of the rings 0
- * to 2 until brc_rings_forget. */
+ * to 2 until brc_rings_forget. out NULL: rings->around. */
 typedef enum brc_rings_closing { BRC_RINGS_DROP, BRC_RINGS_KEEP, BRC_RINGS_PLACE } brc_rings_closing;
 brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_rings_closing how, brc_ring_list *out);
-/* Of the list that was placed. */
-brc_status brc_rings_forget(brc_rings *rings, const brc_ring_list *list);
+brc_status brc_rings_forget(brc_rings *rings);
 /* Elements whose number is above 0 are touched, and no others. */
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *rings, brc_buffer *number);
 /* Elements whose number is not above 0, in every ring. */
@@ -62,13 +64,14 @@ brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pas
 /* Whether a pass over the rings 0 to `ring` goes over all elements: list NULL, or half of the elements and more. */
 bool brc_pass_is_whole(const brc_simulation *s, const brc_ring_list *list, int ring);
 
-/* rings->force (and torque) take the places of the forces of the listed rings 0 to `inner`, and the velocities their
- * difference over half a step; of those up to k, which brc_rims_force has replaced, what that loses is booked too. */
+/* Before and after bonds break: velocities take half_kick (dt/2, 0: none) of the forces that change. Where all are
+ * evaluated they take it here, and what velocity Verlet loses by the jump is booked, as brc_rings_replace does. */
+brc_status brc_rings_begin(brc_simulation *s, brc_rings *rings, double half_kick);
+brc_status brc_rings_end(brc_simulation *s, const brc_rings *rings);
+/* Forces (and torques) of rings take the places of the forces of the listed rings 0 to `inner`, and the velocities
+ * their difference over half a step; of those up to k, which brc_rims_force has replaced, what that loses is booked
+ * too. */
 brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int inner, int k);
-/* Around an evaluation of the whole body in place (whole_force): forces from before are kept, and what velocity Verlet
- * loses by their jump is booked, as brc_rings_replace does of its rings. */
-brc_status brc_rings_keep_force(brc_simulation *s, const brc_rings *rings);
-brc_status brc_rings_book_whole(brc_simulation *s, const brc_rings *rings);
 /* Sum of x [n_rows] over the rings 0 to k, in the order of the list. */
 brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, brc_buffer *x, double *out);
 

@@ -50,23 +50,16 @@ brc_scope brc_scope_of_sums(const brc_simulation *s, const brc_scope *outer)
     return (brc_scope){.owner = "sums", .base = s->core, BRC_VALUES(values), .outer = outer};
 }
 
-brc_scope brc_scope_of_velocities(const brc_simulation *s, const brc_scope *outer)
-{
-    static const brc_value_row values[] = {{"displacement", BRC_VALUE_BUFFER, OF_RUN(velocity)}};
-    return (brc_scope){.owner = "velocities", .base = s->core, BRC_VALUES(values), .outer = outer};
-}
-
-brc_scope brc_scope_of_damping(const brc_simulation *s, const brc_scope *outer)
-{
-    static const brc_value_row values[] = {{"lost", BRC_VALUE_BUFFER, OF_RUN(lost_damping)}};
-    return (brc_scope){.owner = "damping", .base = s->core, BRC_VALUES(values), .outer = outer};
-}
-
-brc_scope brc_scope_of_stresses(const brc_simulation *s, const brc_scope *outer)
-{
-    static const brc_value_row values[] = {{"stress", BRC_VALUE_BUFFER, OF_RUN(stress)}};
-    return (brc_scope){.owner = "stresses of elements", .base = s->core, BRC_VALUES(values), .outer = outer};
-}
+/* One array under another name. */
+#define SCOPE(function, words, name, member)                                                                           \
+    brc_scope function(const brc_simulation *s, const brc_scope *outer)                                                \
+    {                                                                                                                  \
+        static const brc_value_row values[] = {{name, BRC_VALUE_BUFFER, OF_RUN(member)}};                              \
+        return (brc_scope){.owner = words, .base = s->core, BRC_VALUES(values), .outer = outer};                       \
+    }
+SCOPE(brc_scope_of_velocities, "velocities", "displacement", velocity)
+SCOPE(brc_scope_of_damping, "damping", "lost", lost_damping)
+SCOPE(brc_scope_of_stresses, "stresses of elements", "stress", stress)
 
 brc_status brc_passes_make(brc_simulation *s, const brc_scope *scope, int n, const brc_pass_wanted *wanted)
 {

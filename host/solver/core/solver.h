@@ -25,8 +25,9 @@ brc_elastic brc_elastic_of(const brc_material *material);
 /* Hooke's law: stress of a strain, xx yy zz yz xz xy. */
 void brc_hooke(const brc_elastic *material, const double strain[6], double stress[6]);
 
+/* Two parts. What a run is made of is a value that every folder is handed: made by core/ and run/, which alone set it,
+ * and the same to its end. What folders keep are pointers to structs that nobody else can look into. */
 struct brc_simulation {
-    /* What a run is made of: set as it is made, read by all. */
     brc_context *context;
     const brc_scene *scene;
     const brc_bond_model *model;
@@ -38,7 +39,7 @@ struct brc_simulation {
     brc_elastic *elastic;         /* [n_materials] */
     int32_t *material_of_element; /* [n_elements] index into scene.materials */
 
-    /* What each folder keeps of its own: known to its files alone. NULL: not in this run. */
+    /* Kept by each folder; NULL: not in this run. */
     struct brc_core *core;
     struct brc_run *run;
     struct brc_statics *statics;
@@ -52,6 +53,13 @@ struct brc_simulation {
     struct brc_noise *noise;       /* only where a stage has noise_damping */
     struct brc_guard_state *guard; /* from the first dynamic stage that is run (not stepped by hand) on */
 };
+
+/* A function that tells a value that its folder keeps: BRC_READ(int64_t, brc_simulation_step, s->run->step). */
+#define BRC_READ(type, name, value)                                                                                    \
+    type name(const brc_simulation *s)                                                                                 \
+    {                                                                                                                  \
+        return value;                                                                                                  \
+    }
 
 /* ---- arrays of elements and bonds (core/element_arrays.c); NULL: not in this run ---- */
 brc_buffer *brc_displacement_of(const brc_simulation *s); /* [n_rows][3] */
@@ -86,6 +94,8 @@ brc_status brc_download(brc_simulation *s, brc_buffer *buffer, int bytes_each, d
 brc_status brc_state_to_rows(brc_simulation *s, brc_buffer *buffer, const double *values, int width, double fill);
 brc_status brc_state_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width);
 brc_status brc_coeff_from_rows(brc_simulation *s, brc_buffer *buffer, double *values, int width);
+/* The largest of a number of each element, 0 where all are below. */
+brc_status brc_largest_coeff(brc_simulation *s, brc_buffer *buffer, double *out);
 /* New buffers of count numbers. */
 brc_status brc_new_state(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
 brc_status brc_new_coeff(brc_simulation *s, brc_buffer **out, int64_t count, const char *what);
@@ -238,6 +248,24 @@ brc_status brc_notify_frame(brc_simulation *s);
 brc_status brc_notify_pause(brc_simulation *s, brc_pause why);
 brc_status brc_statics_store_stage(brc_simulation *s, brc_state_store *store);
 
+/* Of a number of the device. */
+static inline int brc_coeff_bytes(const brc_simulation *s)
+{
+    return brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+}
+static inline int brc_state_bytes(const brc_simulation *s)
+{
+    return brc_precision_state_bytes(brc_device_get_precision(s->device));
+}
+/* Stiffness of two halves of a bond, one of each material. */
+static inline double brc_in_series(double a, double b)
+{
+    return 2 * a * b / (a + b);
+}
+static inline double brc_mass_of_element(const brc_simulation *s, int64_t e)
+{
+    return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density;
+}
 static inline bool brc_has_spheres(const brc_simulation *s)
 {
     return s->model->element == BRC_ELEMENT_SPHERE;

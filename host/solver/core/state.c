@@ -3,30 +3,15 @@
 #include <math.h>
 #include <string.h>
 
-const brc_scene *brc_simulation_scene(const brc_simulation *s)
-{
-    return s->scene;
-}
-const brc_domain *brc_simulation_domain(const brc_simulation *s)
-{
-    return s->domain;
-}
-const brc_device *brc_simulation_device(const brc_simulation *s)
-{
-    return s->device;
-}
+BRC_READ(const brc_scene *, brc_simulation_scene, s->scene)
+BRC_READ(const brc_domain *, brc_simulation_domain, s->domain)
+BRC_READ(const brc_device *, brc_simulation_device, s->device)
 double brc_simulation_phase_seconds(const brc_simulation *s, brc_step_phase phase)
 {
     return phase == BRC_PHASE_NONE ? 0 : s->core->watch.seconds[phase];
 }
-const char *const *brc_simulation_effects_in(const brc_simulation *s)
-{
-    return s->core->effects_in;
-}
-const char *const *brc_simulation_effects_out(const brc_simulation *s)
-{
-    return s->core->effects_out;
-}
+BRC_READ(const char *const *, brc_simulation_effects_in, s->core->effects_in)
+BRC_READ(const char *const *, brc_simulation_effects_out, s->core->effects_out)
 
 brc_status brc_simulation_displacement(brc_simulation *s, double *out)
 {

@@ -180,14 +180,11 @@ brc_status brc_store_list(brc_simulation *s, brc_state_store *store, const char 
 {
     const brc_stored_type type = type_of(s, kind);
     const size_t row = (size_t)width * (size_t)brc_stored_type_bytes(type);
-    place_of_id *order = NULL;
-    char *image = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED place_of_id *order = NULL;
     if (!buffer || n == 0) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &image, (n + 1) * (int64_t)row,
-                                     name)); /* a row more, held while they change places */
+    BRC_LOCAL(s->context, (n + 1) * (int64_t)row, char, image, name); /* a row more, held while they change places */
     if (id) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &order, n, name));
+        BRC_TRY(BRC_ALLOCATE(s->context, &order, n, name));
         for (int64_t i = 0; i < n; ++i)
             order[i] = (place_of_id){id[i], (int32_t)i};
         qsort(order, (size_t)n, sizeof *order, by_id);
@@ -195,18 +192,15 @@ brc_status brc_store_list(brc_simulation *s, brc_state_store *store, const char 
             order[store->loading ? order[i].at : i].id = store->loading ? (int32_t)i : order[i].at;
     }
     if (!store->loading) {
-        BRC_TRY_OR(cleanup, brc_buffer_read(buffer, 0, image, n * (int64_t)row));
+        BRC_TRY(brc_buffer_read(buffer, 0, image, n * (int64_t)row));
         if (id) rearrange(image, row, image + (size_t)n * row, n, order);
     }
-    BRC_TRY_OR(cleanup, store->numbers(store, name, type, n, width, image));
+    BRC_TRY(store->numbers(store, name, type, n, width, image));
     if (store->loading) {
         if (id) rearrange(image, row, image + (size_t)n * row, n, order);
-        BRC_TRY_OR(cleanup, brc_buffer_write(buffer, 0, image, n * (int64_t)row));
+        BRC_TRY(brc_buffer_write(buffer, 0, image, n * (int64_t)row));
     }
-cleanup:
-    brc_memory_free(order);
-    brc_memory_free(image);
-    return status;
+    return BRC_OK;
 }
 
 brc_status brc_store_fields(brc_simulation *s, brc_state_store *store, const brc_kept_fields *k)

@@ -1,6 +1,13 @@
-/* Symmetric 3 x 3 matrices on the host, packed xx yy zz yz xz xy. */
+/* Vectors and symmetric 3 x 3 matrices on the host, packed xx yy zz yz xz xy. */
 #ifndef BRC_SOLVER_SYM3_H
 #define BRC_SOLVER_SYM3_H
+
+#include <math.h>
+
+static inline double brc_norm3(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
 
 /* Eigenvalues ascending and, if vectors is not 0, unit eigenvectors in its rows (cyclic Jacobi, to rounding). */
 void brc_sym3_eigen(const double a[6], double values[3], double vectors[3][3]);

@@ -78,6 +78,12 @@ typedef struct brc_hooked {
     brc_status (*call)(struct brc_simulation *s, const brc_occasion *now);
     bool (*due)(const struct brc_simulation *s); /* NULL: always */
 } brc_hooked;
+/* Something to be hooked in that does one thing with what now says. */
+#define BRC_CALLED(name, does)                                                                                         \
+    static brc_status name(brc_simulation *s, const brc_occasion *now)                                                 \
+    {                                                                                                                  \
+        return does;                                                                                                   \
+    }
 
 /* A bound of the critical time step [s] beside that of the model's bonds. */
 typedef struct brc_effect_step_bound {
@@ -95,12 +101,12 @@ typedef struct brc_effect_ahead {
 } brc_effect_ahead;
 
 /* Looks of the host that may be put off to the end of a stretch of steps: steps until the next one; the stretch begins;
- * it has ended, *stands: each look would have found nothing to do. */
-typedef struct brc_effect_looks {
+ * it has ended, *stands: each probe would have found nothing to do. */
+typedef struct brc_effect_probes {
     int64_t (*next)(const struct brc_simulation *s);
     void (*begin)(struct brc_simulation *s);
     brc_status (*end)(struct brc_simulation *s, bool *stands);
-} brc_effect_looks;
+} brc_effect_probes;
 
 typedef struct brc_effect {
     const char *name;                   /* as `check` lists it; NULL: it is not listed */
@@ -114,7 +120,7 @@ typedef struct brc_effect {
     bool follows_surfaces;                   /* it asks where the surfaces of elements are */
     const brc_effect_step_bound *step_bound; /* NULL: none */
     const brc_effect_ahead *ahead;           /* NULL: none */
-    const brc_effect_looks *looks;           /* NULL: none */
+    const brc_effect_probes *probes;         /* NULL: none */
     /* Steps for which it asks nothing of the host; NULL: all. The step after `step` at which it is to be read
      * (BRC_HOOK_READ); NULL: never. */
     int64_t (*quiet_steps)(const struct brc_simulation *s);
@@ -147,10 +153,10 @@ int64_t brc_effects_quiet_steps(const struct brc_simulation *s);
 int64_t brc_effects_next_reading(const struct brc_simulation *s, int64_t step);
 /* Whether one of them follows the surfaces of elements. */
 bool brc_effects_follow_surfaces(const struct brc_simulation *s);
-/* Steps until the next look of one of them; what begins and ends theirs (brc_effect_looks). */
-int64_t brc_effects_next_look(const struct brc_simulation *s);
-void brc_effects_begin_looks(struct brc_simulation *s);
-brc_status brc_effects_end_looks(struct brc_simulation *s, bool *stands);
+/* Steps until the next probe of one of them; what begins and ends theirs (brc_effect_probes). */
+int64_t brc_effects_next_probe(const struct brc_simulation *s);
+void brc_effects_begin_probes(struct brc_simulation *s);
+brc_status brc_effects_end_probes(struct brc_simulation *s, bool *stands);
 /* The effect that takes steps ahead; NULL: none. */
 const brc_effect_ahead *brc_effects_ahead(const struct brc_simulation *s);
 

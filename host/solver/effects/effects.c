@@ -17,14 +17,8 @@ const brc_effect *const *brc_effects(int *n)
     return effects;
 }
 
-static bool many(const brc_wants *w)
-{
-    return w->many_materials;
-}
-static bool tchamwa(const brc_wants *w)
-{
-    return w->tchamwa;
-}
+BRC_WANTED(many, w->many_materials)
+BRC_WANTED(tchamwa, w->tchamwa)
 static void ask_tchamwa(brc_wants *w, const int32_t *material)
 {
     (void)material;
@@ -32,20 +26,8 @@ static void ask_tchamwa(brc_wants *w, const int32_t *material)
         w->tchamwa |=
             w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC && w->scene->stages[i].integrator == BRC_TCHAMWA_WIELGOSZ;
 }
-static bool some_stage(const brc_wants *w, brc_solver_kind solver)
-{
-    for (int32_t i = 0; i < w->scene->n_stages; ++i)
-        if (w->scene->stages[i].solver == solver) return true;
-    return false;
-}
-static bool statics(const brc_wants *w)
-{
-    return some_stage(w, BRC_SOLVER_STATIC);
-}
-static bool modes(const brc_wants *w)
-{
-    return some_stage(w, BRC_SOLVER_MODES);
-}
+BRC_WANTED(statics, brc_wants_solver(w, BRC_SOLVER_STATIC))
+BRC_WANTED(modes, brc_wants_solver(w, BRC_SOLVER_MODES))
 
 const brc_effect brc_several_materials_effect = {.name = "several materials", .in = many};
 const brc_effect brc_numerical_damping_effect = {

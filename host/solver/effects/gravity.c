@@ -7,20 +7,12 @@ typedef struct brc_weights {
     brc_buffer *weight; /* mass; 0 in padding, which has a mass to be divided by and, falling, would have an energy */
 } brc_weights;
 
-static bool in(const brc_wants *w)
-{
-    return w->scene->has_gravity;
-}
+BRC_WANTED(in, w->scene->has_gravity)
 
 static const brc_field_row rows[] = {{"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL,
                                       BRC_FIELD_AT(brc_weights, weight), "masses in gravity", "kg", BRC_NOT_KEPT}};
 static BRC_FIELD_TABLE(fields, "gravity", BRC_LIFE_RUN, in, rows);
 extern const brc_effect brc_gravity_effect;
-
-static double mass_of(const brc_simulation *s, int64_t e)
-{
-    return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density;
-}
 
 static brc_status create(brc_simulation *s)
 {
@@ -35,7 +27,7 @@ static brc_status create(brc_simulation *s)
     BRC_TRY(brc_fields_create(s->device, &fields, &s->wants, g));
     BRC_TRY(BRC_ALLOCATE(s->context, &mass, s->domain->n_elements, "masses"));
     for (int64_t e = 0; e < s->domain->n_elements; ++e)
-        mass[e] = mass_of(s, e);
+        mass[e] = brc_mass_of_element(s, e);
     const brc_status status = brc_state_to_rows(s, g->weight, mass, 1, 0);
     brc_memory_free(mass);
     return status;
@@ -58,13 +50,11 @@ static brc_status add(brc_simulation *s, const brc_occasion *now)
 static brc_status potential(brc_simulation *s, const brc_occasion *now)
 {
     const brc_domain *d = s->domain;
-    double *u = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, u, "displacements");
     const brc_status status = brc_state_from_rows(s, brc_displacement_of(s), u, 3);
     for (int64_t e = 0; e < d->n_elements; ++e)
         for (int c = 0; c < 3; ++c)
-            now->ledger->potential -= mass_of(s, e) * s->scene->gravity[c] * u[3 * e + c];
-    brc_memory_free(u);
+            now->ledger->potential -= brc_mass_of_element(s, e) * s->scene->gravity[c] * u[3 * e + c];
     return status;
 }
 

@@ -5,10 +5,10 @@
 #include <string.h>
 
 enum { BLOCK = 128 }; /* rows of a work-item of guard_probe (GUARD_BLOCK, kernels/effects/guard.cl) */
-/* A look reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the
+/* A probe reads six numbers an element, 2 % of what a step moves: every 16 steps it costs a thousandth. Waiting for the
  * device and reading a number a block is worth some microseconds, a ledger about a step: every 256 and every 1024 steps
  * both stay below a hundredth (docs/notebook/stability.md). */
-static const int64_t look_every = 16, read_every = 256, ledger_every = 1024;
+static const int64_t probe_every = 16, read_every = 256, ledger_every = 1024;
 /* An element faster than this many times the wave speed and the fastest element at the start of the stage is no physics
  * any more. */
 static const double most_speeds = 30;
@@ -19,24 +19,21 @@ static const double endless = 1e18;
 static const double runaway = 100;
 
 struct brc_guard_state {
-    brc_pass *look;
+    brc_pass *probe;
     brc_buffer *first, *when; /* [n_blocks] */
     int32_t n_blocks;
     int32_t *found; /* [2][n_blocks] host */
     double most_v;
-    int64_t look_every;
+    int64_t probe_every;
     brc_guard_report report;
 };
 
-static int64_t each_block(const brc_wants *w)
-{
-    return (w->layout->n_rows + BLOCK - 1) / BLOCK;
-}
+BRC_COUNTED(each_block, (w->layout->n_rows + BLOCK - 1) / BLOCK)
 
 #define AT(member) BRC_FIELD_AT(struct brc_guard_state, member)
 static const brc_field_row rows[] = {
-    {"first", each_block, 1, BRC_FIELD_INT, NULL, AT(first), "guard", "-", BRC_NOT_KEPT},
-    {"when", each_block, 1, BRC_FIELD_INT, NULL, AT(when), "guard", "-", BRC_NOT_KEPT},
+    BRC_FIELD(first, each_block, 1, INT, NULL, "guard", "-"),
+    BRC_FIELD(when, each_block, 1, INT, NULL, "guard", "-"),
 };
 BRC_FIELD_TABLE(brc_guard_fields, "guard", BRC_LIFE_DYNAMIC, NULL, rows);
 
@@ -59,18 +56,16 @@ static void release(brc_simulation *s)
 static brc_status speeds(brc_simulation *s, double *wave, double *fastest)
 {
     const int64_t n = s->domain->n_elements;
-    double *v = NULL;
     *wave = *fastest = 0;
     for (int64_t e = 0; e < s->domain->n_elements; ++e) {
         const brc_elastic *m = s->elastic + s->material_of_element[e];
         *wave = fmax(*wave, sqrt((m->lambda + 2 * m->mu) / m->density));
     }
-    BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
+    BRC_LOCAL(s->context, 3 * n, double, v, "velocities");
     const brc_status status = brc_state_from_rows(s, brc_velocity_of(s), v, 3);
     for (int64_t e = 0; e < n; ++e)
         *fastest =
             fmax(*fastest, sqrt(v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2]));
-    brc_memory_free(v);
     return status;
 }
 
@@ -90,31 +85,31 @@ brc_status brc_guard_begin_stage(brc_simulation *s)
                                                             .tables = {&brc_guard_fields},
                                                             BRC_VALUES(values),
                                                             .outer = &run};
-        BRC_TRY(BRC_PASSES(s, &guard, BRC_PASS(&g->look, "guard_probe", "n probe most_u")));
+        BRC_TRY(BRC_PASSES(s, &guard, BRC_PASS(&g->probe, "guard_probe", "n probe most_u")));
         BRC_TRY(brc_upload_int(g->first, g->found, g->n_blocks));
         BRC_TRY(brc_upload_int(g->when, g->found, g->n_blocks));
         const int64_t asked = s->scene->guard.every;
         g->report.every = asked > 0 ? asked : read_every;
         g->report.ledger_every = asked > 0 ? asked : ledger_every;
-        g->look_every = g->report.every < look_every ? g->report.every : look_every;
+        g->probe_every = g->report.every < probe_every ? g->report.every : probe_every;
     }
     BRC_TRY(speeds(s, &wave, &fastest));
     s->guard->most_v = fmin(most_speeds * (wave + fastest), endless);
     return BRC_OK;
 }
 
-/* Look number n is that at step n look_every, or after the one before it. */
-static brc_status look_at_elements(brc_simulation *s)
+/* Probe number n is that at step n probe_every, or after the one before it. */
+static brc_status probe_elements(brc_simulation *s)
 {
     struct brc_guard_state *g = s->guard;
-    const int64_t look = (brc_simulation_step(s) + g->look_every - 1) / g->look_every;
-    return BRC_RUN(g->look, g->n_blocks, {"n", BRC_INT(s->layout->n_rows)},
-                   {"probe", BRC_INT(look < INT32_MAX ? look : INT32_MAX)}, {"most_u", BRC_STATE(endless)});
+    const int64_t probe = (brc_simulation_step(s) + g->probe_every - 1) / g->probe_every;
+    return BRC_RUN(g->probe, g->n_blocks, {"n", BRC_INT(s->layout->n_rows)},
+                   {"probe", BRC_INT(probe < INT32_MAX ? probe : INT32_MAX)}, {"most_u", BRC_STATE(endless)});
 }
 
 brc_status brc_guard_step(brc_simulation *s)
 {
-    return s->guard && brc_simulation_step(s) % s->guard->look_every == 0 ? look_at_elements(s) : BRC_OK;
+    return s->guard && brc_simulation_step(s) % s->guard->probe_every == 0 ? probe_elements(s) : BRC_OK;
 }
 
 static int64_t next_reading(const brc_simulation *s, int64_t step)
@@ -123,7 +118,7 @@ static int64_t next_reading(const brc_simulation *s, int64_t step)
     return (step / every + 1) * every;
 }
 
-/* The looks so far that were not read yet. */
+/* The probes so far that were not read yet. */
 static brc_status stretch(brc_simulation *s, const brc_occasion *now)
 {
     if (!s->guard) return BRC_OK;
@@ -131,13 +126,13 @@ static brc_status stretch(brc_simulation *s, const brc_occasion *now)
     return now->store->field(now->store, s->guard->when);
 }
 
-/* The element found first, of equals the lowest; -1: none. *look: when. */
-static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *look)
+/* The element found first, of equals the lowest; -1: none. *probe: when. */
+static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *probe)
 {
     struct brc_guard_state *g = s->guard;
     const int32_t *when = g->found + g->n_blocks;
     *element = -1;
-    *look = 0;
+    *probe = 0;
     BRC_TRY(brc_buffer_read(g->first, 0, g->found, g->n_blocks * (int64_t)sizeof *g->found));
     int any = 0;
     for (int32_t b = 0; b < g->n_blocks; ++b)
@@ -147,9 +142,9 @@ static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *loo
     for (int32_t b = 0; b < g->n_blocks; ++b) {
         if (g->found[b] < 0) continue;
         const int64_t e = s->layout->element_of_row[g->found[b]];
-        if (*element >= 0 && (when[b] > *look || (when[b] == *look && e > *element))) continue;
+        if (*element >= 0 && (when[b] > *probe || (when[b] == *probe && e > *element))) continue;
         *element = e;
-        *look = when[b];
+        *probe = when[b];
     }
     return BRC_OK;
 }
@@ -158,8 +153,8 @@ static brc_status find_element(brc_simulation *s, int64_t *element, int64_t *loo
 static brc_status fastest_element(brc_simulation *s, int64_t *element)
 {
     const int64_t n = s->domain->n_elements;
-    double *v = NULL, most = -1;
-    BRC_TRY(BRC_ALLOCATE(s->context, &v, 3 * n, "velocities"));
+    double most = -1;
+    BRC_LOCAL(s->context, 3 * n, double, v, "velocities");
     const brc_status status = brc_state_from_rows(s, brc_velocity_of(s), v, 3);
     for (int64_t e = 0; e < n; ++e) {
         const double square = v[3 * e] * v[3 * e] + v[3 * e + 1] * v[3 * e + 1] + v[3 * e + 2] * v[3 * e + 2];
@@ -167,22 +162,21 @@ static brc_status fastest_element(brc_simulation *s, int64_t *element)
         most = square;
         *element = e;
     }
-    brc_memory_free(v);
     return status;
 }
 
-/* look: when the device saw it, -1 where the ledger tells; off: the ledger's closure where that is what is wrong, else
+/* probe: when the device saw it, -1 where the ledger tells; off: the ledger's closure where that is what is wrong, else
  * 0. */
-static brc_status stop(brc_simulation *s, bool several, const char *what, int64_t element, int64_t look, double off)
+static brc_status stop(brc_simulation *s, bool several, const char *what, int64_t element, int64_t probe, double off)
 {
     char where[900] = "", cause[700] = "", seen[120] = "";
     if (element >= 0) brc_guard_tell_element(s, element, where, sizeof where);
-    if (look < 0)
+    if (probe < 0)
         snprintf(seen, sizeof seen, " The fastest:");
     else
         snprintf(seen, sizeof seen, " First seen between steps %lld and %lld:",
-                 (long long)(look > 0 ? (look - 1) * s->guard->look_every : 0),
-                 (long long)(look * s->guard->look_every));
+                 (long long)(probe > 0 ? (probe - 1) * s->guard->probe_every : 0),
+                 (long long)(probe * s->guard->probe_every));
     brc_guard_tell_cause(s, element, off, cause, sizeof cause);
     return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                     "stage '%s' stopped at step %lld, t = %.6g s: %s%s%s.%s%s%s Likely cause: %s",
@@ -191,24 +185,24 @@ static brc_status stop(brc_simulation *s, bool several, const char *what, int64_
                     element >= 0 ? seen : "", element >= 0 ? " " : "", where, cause);
 }
 
-static brc_status read_looks(brc_simulation *s, bool several)
+static brc_status read_probes(brc_simulation *s, bool several)
 {
-    int64_t element, look;
+    int64_t element, probe;
     char what[200];
-    BRC_TRY(find_element(s, &element, &look));
+    BRC_TRY(find_element(s, &element, &probe));
     if (element < 0) return BRC_OK;
     snprintf(what, sizeof what,
              "element %lld is faster than %.3g m/s (%.0f times the wave speed and the fastest element at the start of "
              "the stage) or not finite",
              (long long)element, s->guard->most_v, most_speeds);
-    return stop(s, several, what, element, look, 0);
+    return stop(s, several, what, element, probe, 0);
 }
 
 brc_status brc_guard_vouch(brc_simulation *s, bool several)
 {
     if (!s->guard || brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC) return BRC_OK;
-    BRC_TRY(look_at_elements(s));
-    return read_looks(s, several);
+    BRC_TRY(probe_elements(s));
+    return read_probes(s, several);
 }
 
 brc_status brc_guard_read(brc_simulation *s, bool several, const brc_ledger *ledger)
@@ -217,8 +211,8 @@ brc_status brc_guard_read(brc_simulation *s, bool several, const brc_ledger *led
     int64_t element = -1;
     char what[200];
     brc_ledger own;
-    g->report.looks += 1;
-    BRC_TRY(read_looks(s, several));
+    g->report.probes += 1;
+    BRC_TRY(read_probes(s, several));
     if (!ledger && brc_simulation_step(s) % g->report.ledger_every) return BRC_OK;
     g->report.ledgers += 1;
     if (!ledger) BRC_TRY(brc_simulation_ledger(s, &own));
@@ -240,10 +234,7 @@ brc_status brc_guard_read(brc_simulation *s, bool several, const brc_ledger *led
                 isfinite(ledger->total) && ledger->total <= runaway * put_in ? ledger->closure : 0);
 }
 
-static brc_status read_hooked(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_guard_read(s, now->several, now->ledger);
-}
+BRC_CALLED(read_hooked, brc_guard_read(s, now->several, now->ledger))
 
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_STEPS, .plain = brc_guard_begin_stage},
                                     {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_CHECKS, .plain = brc_guard_step},

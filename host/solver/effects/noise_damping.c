@@ -6,11 +6,11 @@
  * from it. I - c M^-1 S contracts while c w^2 < 2 for all frequencies w of S, which are below the critical frequency of
  * the body (0.15 to 0.78 of it: test_noise_damping): so c may be up to this share of 1 / w_c^2. */
 static const double LARGEST_SHARE = 1;
-enum { MOST_STEPS = 32 };
+enum { MOST_STEPS = 32, MOST_PASSES = 4 };
 
 /* One simulation has at most one. */
 struct brc_noise {
-    brc_pass *gradient_pass, *flux_pass, *force_pass, *damp;
+    brc_pass *of_model[MOST_PASSES], *damp;
     brc_buffer *gradient, *no_stress, *flux, *bond_part,
         *force;     /* of velocities: [n][9] 1/s, zeros, [n][9], [n][9], [n][3] */
     int64_t every;  /* 0: not in this stage */
@@ -24,10 +24,7 @@ static bool asks(const brc_stage *stage)
     return stage->solver == BRC_SOLVER_DYNAMIC && stage->noise_damping > 0;
 }
 
-static bool noise(const brc_wants *w)
-{
-    return w->noise;
-}
+BRC_WANTED(noise, w->noise)
 
 static void ask(brc_wants *w, const int32_t *material)
 {
@@ -46,12 +43,11 @@ static int64_t quiet_steps(const brc_simulation *s)
 
 #define AT(member) BRC_FIELD_AT(struct brc_noise, member)
 static const brc_field_row rows[] = {
-    {"gradient", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(gradient), "gradients of velocities", "1/s", BRC_NOT_KEPT},
+    BRC_FIELD(gradient, brc_each_row, 9, COEFF, NULL, "gradients of velocities", "1/s"),
     {"stress", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(no_stress), "no stresses", "-", BRC_NOT_KEPT},
-    {"flux", brc_each_row, 9, BRC_FIELD_COEFF, NULL, AT(flux), "fluxes of velocities", "Pa/s", BRC_NOT_KEPT},
-    {"bond_part", brc_each_row, 9, BRC_FIELD_COEFF, brc_wants_many, AT(bond_part), "bond parts of velocities", "Pa/s",
-     BRC_NOT_KEPT},
-    {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(force), "forces of noise damping", "N/s", BRC_NOT_KEPT},
+    BRC_FIELD(flux, brc_each_row, 9, COEFF, NULL, "fluxes of velocities", "Pa/s"),
+    BRC_FIELD(bond_part, brc_each_row, 9, COEFF, brc_wants_many, "bond parts of velocities", "Pa/s"),
+    BRC_FIELD(force, brc_each_row, 3, STATE, NULL, "forces of noise damping", "N/s"),
 };
 BRC_FIELD_TABLE(brc_noise_fields, "noise damping", BRC_LIFE_RUN, noise, rows);
 
@@ -67,10 +63,9 @@ static brc_status make_passes(brc_simulation *s, struct brc_noise *d)
                     velocities = brc_scope_of_velocities(s, &damping);
     const brc_scope noise = {
         .owner = "noise damping", .base = d, .tables = {&brc_noise_fields}, BRC_VALUES(values), .outer = &velocities};
-    const brc_pass_wanted wanted[] = {
-        BRC_PASS(&d->gradient_pass, "dlsm_gradient", NULL), BRC_PASS(&d->flux_pass, "dlsm_flux_linear", NULL),
-        BRC_PASS(&d->force_pass, "dlsm_force", NULL), BRC_PASS(&d->damp, "damp_noise", NULL)};
-    return BRC_PASSES_MAKE(s, &noise, wanted);
+    for (int k = 0; s->model->smoothing[k]; ++k)
+        BRC_TRY(BRC_PASSES(s, &noise, BRC_PASS(&d->of_model[k], s->model->smoothing[k], NULL)));
+    return BRC_PASSES(s, &noise, BRC_PASS(&d->damp, "damp_noise", NULL));
 }
 
 static brc_status create(brc_simulation *s)
@@ -112,22 +107,14 @@ static bool due(const brc_simulation *s)
 brc_status brc_noise_damp(brc_simulation *s)
 {
     struct brc_noise *d = s->noise;
-    const int32_t n = s->layout->n_rows;
-    BRC_TRY(brc_pass_run(d->gradient_pass, s->n_groups));
-    BRC_TRY(brc_pass_run(d->flux_pass, s->n_groups));
-    BRC_TRY(brc_pass_run(d->force_pass, s->n_groups));
+    for (int k = 0; d->of_model[k]; ++k)
+        BRC_TRY(brc_pass_run(d->of_model[k], s->n_groups));
     BRC_TRY(brc_constrain(s, d->force, NULL));
-    return brc_pass_run(d->damp, n);
+    return brc_pass_run(d->damp, s->layout->n_rows);
 }
 
-brc_buffer *brc_noise_drag(const brc_simulation *s)
-{
-    return s->noise->force;
-}
-double brc_noise_factor(const brc_simulation *s)
-{
-    return s->noise->factor;
-}
+BRC_READ(brc_buffer *, brc_noise_drag, s->noise->force)
+BRC_READ(double, brc_noise_factor, s->noise->factor)
 
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_ENTERED, .plain = enter},
                                     {.hook = BRC_HOOK_WHOLE, .plain = brc_noise_damp, .due = due}};

@@ -109,11 +109,10 @@ double brc_beam_body_reading(const double edges[3])
 
 brc_status brc_beam_body_of(brc_context *context, const brc_domain *d, int32_t body, brc_beam_body *out)
 {
-    uint8_t *at_wall = NULL;
     int64_t n = 0, inside = 0, ends = 0, inner_ends = 0;
     double diameter = 0, edges[3];
     *out = (brc_beam_body){0};
-    BRC_TRY(BRC_ALLOCATE(context, &at_wall, d->n_elements, "elements at walls"));
+    BRC_LOCAL(context, d->n_elements, uint8_t, at_wall, "elements at walls");
     const bool has_walls = mark_layers(d, at_wall);
     for (int64_t e = 0; e < d->n_elements; ++e) {
         if (body >= 0 && d->body[e] != body) continue;
@@ -128,6 +127,5 @@ brc_status brc_beam_body_of(brc_context *context, const brc_domain *d, int32_t b
     if (n > 0) out->coordination = (double)ends / (double)n;
     if (n > 0 && measure_edges(d, body, diameter / (double)n, edges)) out->reading = brc_beam_body_reading(edges);
     if (has_walls && inside >= FEWEST) out->inner = (double)inner_ends / (double)inside;
-    brc_memory_free(at_wall);
     return BRC_OK;
 }

@@ -20,20 +20,17 @@ struct brc_beam_sample {
 brc_status brc_beam_sample_pack(brc_context *context, const brc_shape *shape, const brc_fill *fill, int n_threads,
                                 brc_beam_sample **out)
 {
-    brc_beam_sample *sample = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_beam_sample_free) brc_beam_sample *sample = NULL;
     *out = NULL;
     if (fill->kind != BRC_FILL_PACKING)
         return BRC_FAIL(context, BRC_BAD_INPUT, "a sample of beams is packed; expected a fill of kind packing");
     BRC_TRY(brc_fill_check(context, fill));
     BRC_TRY(BRC_ALLOCATE(context, &sample, 1, "sample of beams"));
-    BRC_TRY_OR(cleanup, brc_solid_create(context, shape, n_threads, &sample->solid));
-    BRC_TRY_OR(cleanup, brc_packing_make(context, sample->solid, fill, n_threads, &sample->packing));
+    BRC_TRY(brc_solid_create(context, shape, n_threads, &sample->solid));
+    BRC_TRY(brc_packing_make(context, sample->solid, fill, n_threads, &sample->packing));
     *out = sample;
+    sample = NULL;
     return BRC_OK;
-cleanup:
-    brc_beam_sample_free(&sample);
-    return status;
 }
 
 void brc_beam_sample_free(brc_beam_sample **sample)
@@ -49,29 +46,22 @@ brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sam
                                 int n_threads, brc_domain **out)
 {
     const int64_t n = sample->packing.n;
-    double *position = NULL, *radius = NULL;
-    brc_domain *domain = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_domain_free) brc_domain *domain = NULL;
     *out = NULL;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain, 1, "domain"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &position, 3 * n, "spheres of a sample"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &radius, n, "spheres of a sample"));
+    BRC_TRY(BRC_ALLOCATE(context, &domain, 1, "domain"));
+    BRC_LOCAL(context, 3 * n, double, position, "spheres of a sample");
+    BRC_LOCAL(context, n, double, radius, "spheres of a sample");
     memcpy(position, sample->packing.position, (size_t)(3 * n) * sizeof *position);
     memcpy(radius, sample->packing.radius, (size_t)n * sizeof *radius);
-    BRC_TRY_OR(cleanup,
-               brc_beams_build(context, sample->solid, position, radius, n, coordination, balanced, n_threads, domain));
+    BRC_TRY(brc_beams_build(context, sample->solid, position, radius, n, coordination, balanced, n_threads, domain));
     position = radius = NULL; /* the domain's now */
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->region, n, "material regions"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->body, n, "bodies"));
+    BRC_TRY(BRC_ALLOCATE(context, &domain->region, n, "material regions"));
+    BRC_TRY(BRC_ALLOCATE(context, &domain->body, n, "bodies"));
     domain->quality.coordination_mean = 2.0 * (double)domain->n_bonds / (double)n;
     domain->quality.volume_fraction = sample->packing.volume_fraction;
     *out = domain;
     domain = NULL;
-cleanup:
-    brc_memory_free(position);
-    brc_memory_free(radius);
-    brc_domain_free(&domain);
-    return status;
+    return BRC_OK;
 }
 
 static const char *const walls[3][2] = {{"x-", "x+"}, {"y-", "y+"}, {"z-", "z+"}};
@@ -149,9 +139,8 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
     const double start = brc_clock_s(), strain = 1e-6; /* the operator is linear: any strain gives the same ratios */
     const int axis = pull->axis;
     int32_t set[3][2];
-    double *displacement = NULL, reaction[3];
-    brc_simulation *simulation = NULL;
-    brc_status status = BRC_OK;
+    double reaction[3];
+    BRC_ENDS_WITH(brc_simulation_free) brc_simulation *simulation = NULL;
     memset(out, 0, sizeof *out);
     if (domain->element_kind != BRC_ELEMENT_SPHERE)
         return BRC_FAIL(context, BRC_BAD_INPUT,
@@ -188,22 +177,19 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
         .n_stages = 1,
         .stages = &stage,
         .output = {.n_frames = -1}};
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &displacement, 3 * domain->n_elements, "displacements"));
-    BRC_TRY_OR(cleanup, brc_simulation_create(context, &scene, domain, device, &simulation));
-    BRC_TRY_OR(cleanup, brc_simulation_run(simulation));
-    BRC_TRY_OR(cleanup, brc_simulation_displacement(simulation, displacement));
-    BRC_TRY_OR(cleanup, brc_simulation_reaction(simulation, set[axis][1], reaction));
+    BRC_LOCAL(context, 3 * domain->n_elements, double, displacement, "displacements");
+    BRC_TRY(brc_simulation_create(context, &scene, domain, device, &simulation));
+    BRC_TRY(brc_simulation_run(simulation));
+    BRC_TRY(brc_simulation_displacement(simulation, displacement));
+    BRC_TRY(brc_simulation_reaction(simulation, set[axis][1], reaction));
     evaluate(domain, set, axis, displacement, reaction[axis] / material.beam_young, out);
     brc_beam_body bonds;
-    BRC_TRY_OR(cleanup, brc_beam_body_of(context, domain, -1, &bonds));
+    BRC_TRY(brc_beam_body_of(context, domain, -1, &bonds));
     out->inner = bonds.inner;
     out->n_bonds = domain->n_bonds;
     for (int64_t e = 0; e < domain->n_elements; ++e)
         out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
     out->iterations = brc_simulation_static_report(simulation).iterations;
     out->seconds = brc_clock_s() - start;
-cleanup:
-    brc_simulation_free(&simulation);
-    brc_memory_free(displacement);
-    return status;
+    return BRC_OK;
 }

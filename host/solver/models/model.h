@@ -45,7 +45,7 @@ typedef struct brc_model_breaking {
     brc_status (*branches)(struct brc_simulation *s, struct brc_buffer **out);
     /* Of elements that lost bonds; *left: of how many the other bonds, marked now, break in turn. */
     brc_status (*rebuild)(struct brc_simulation *s, double *left);
-    /* Whether the list of rings is to be placed (rings.h). */
+    /* Whether the list of rings is to be placed (rings.h); NULL: never. */
     bool (*places)(const struct brc_simulation *s, const struct brc_rings *rings);
     /* Criteria of bonds: those above `share` of their limit are marked, `found` of elements or groups counts them. */
     brc_status (*mark)(struct brc_simulation *s, double share);
@@ -161,7 +161,10 @@ typedef struct brc_bond_model {
     /* Averaged over `level` shells of neighbours; NULL: stress is not a sum over bonds. */
     brc_status (*virial_stress)(struct brc_simulation *s, int level, double *stress);
 
-    const brc_model_statics *statics;       /* NULL: dynamic stages alone */
+    const brc_model_statics *statics; /* NULL: dynamic stages alone */
+    /* Kernels, then NULL: forces on what is not linear from neighbour to neighbour, into an array `force`, where their
+     * scope has rates as displacements; NULL: there are none. */
+    const char *const *smoothing;
     const brc_model_step_bound *step_bound; /* NULL: power iteration of the forces */
     bool conserves;                         /* the law has an energy */
     /* Why a run of this model may have lost its energy balance, appended to text; NULL: nothing of its own. */

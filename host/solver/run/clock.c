@@ -1,10 +1,7 @@
 /* The clock of a simulation: stage, step, time, load factor. */
 #include "run_internal.h"
 
-const brc_stage *brc_current_stage(const brc_simulation *s)
-{
-    return &s->scene->stages[s->run->stage];
-}
+BRC_READ(const brc_stage *, brc_current_stage, &s->scene->stages[s->run->stage])
 
 double brc_loads_time(const brc_simulation *s)
 {
@@ -21,49 +18,19 @@ void brc_clock_set_load(brc_simulation *s, double factor)
     s->run->load_factor = factor;
 }
 
-bool brc_half_kick_is_missing(const brc_simulation *s)
-{
-    return s->run->open;
-}
+BRC_READ(bool, brc_half_kick_is_missing, s->run->open)
 void brc_half_kick_missing(brc_simulation *s, bool missing)
 {
     s->run->open = missing;
 }
 
-bool brc_stage_has_ended(const brc_simulation *s)
-{
-    return s->run->note[s->run->stage].ended;
-}
-
-int32_t brc_simulation_stage(const brc_simulation *s)
-{
-    return s->run->stage;
-}
-
-int64_t brc_simulation_step(const brc_simulation *s)
-{
-    return s->run->step;
-}
-
-int64_t brc_simulation_total_steps(const brc_simulation *s)
-{
-    return s->run->total_steps;
-}
-
-double brc_simulation_setup_seconds(const brc_simulation *s)
-{
-    return s->run->setup_seconds;
-}
-
-double brc_simulation_step_seconds(const brc_simulation *s)
-{
-    return s->run->step_seconds;
-}
-
-brc_time_step brc_simulation_time_step(const brc_simulation *s)
-{
-    return s->run->time_step;
-}
+BRC_READ(bool, brc_stage_has_ended, s->run->note[s->run->stage].ended)
+BRC_READ(int32_t, brc_simulation_stage, s->run->stage)
+BRC_READ(int64_t, brc_simulation_step, s->run->step)
+BRC_READ(int64_t, brc_simulation_total_steps, s->run->total_steps)
+BRC_READ(double, brc_simulation_setup_seconds, s->run->setup_seconds)
+BRC_READ(double, brc_simulation_step_seconds, s->run->step_seconds)
+BRC_READ(brc_time_step, brc_simulation_time_step, s->run->time_step)
 
 double brc_simulation_time(const brc_simulation *s)
 {
@@ -71,12 +38,5 @@ double brc_simulation_time(const brc_simulation *s)
                                                                                     : s->run->time;
 }
 
-double brc_simulation_total_time(const brc_simulation *s)
-{
-    return s->run->total_time_before + s->run->time;
-}
-
-brc_regime brc_simulation_regime(const brc_simulation *s)
-{
-    return s->run->regime;
-}
+BRC_READ(double, brc_simulation_total_time, s->run->total_time_before + s->run->time)
+BRC_READ(brc_regime, brc_simulation_regime, s->run->regime)

@@ -253,36 +253,31 @@ brc_status brc_dynamics_run(int32_t n, brc_simulation *const *part, bool resumed
                           : output->frame_interval > 0 ? (int64_t)llround(output->frame_interval / dt)
                                                        : 0;
     if (frame_every < 1 && (output->n_frames > 0 || output->frame_interval > 0)) frame_every = 1;
-    brc_progress *progress = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_progress_finish) brc_progress *progress = NULL;
     double n_bonds = 0;
     for (int32_t k = 0; k < n; ++k)
         n_bonds += (double)part[k]->domain->n_bonds;
     BRC_TRY(brc_progress_create(s->context, &progress, stage->name, total - first, "steps", n_bonds, "bond updates/s"));
     const brc_regime before = s->run->regime;
     for (int32_t k = 0; k < n; ++k)
-        BRC_TRY_OR(cleanup, brc_hook_run(part[k], BRC_HOOK_STEPS, NULL));
+        BRC_TRY(brc_hook_run(part[k], BRC_HOOK_STEPS, NULL));
     if (!resumed) {
         moment now;
-        if (breaks(s)) BRC_TRY_OR(cleanup, draw_up(n, part, &now));
-        BRC_TRY_OR(cleanup, brc_notify_sample(s));
+        if (breaks(s)) BRC_TRY(draw_up(n, part, &now));
+        BRC_TRY(brc_notify_sample(s));
     }
     while (s->run->step < total && !s->run->note[s->run->stage].ended) {
-        BRC_TRY_OR(cleanup, advance_all(n, part, next_batch(s, every, frame_every, total)));
+        BRC_TRY(advance_all(n, part, next_batch(s, every, frame_every, total)));
         brc_progress_update(progress, s->run->step - first);
-        BRC_TRY_OR(cleanup, observe(n, part, n_bonds, every, frame_every, total));
-        BRC_TRY_OR(cleanup, brc_notify_pause(s, brc_simulation_is_to_stop(s)        ? BRC_PAUSE_INTERRUPTED
-                                                : s->run->note[s->run->stage].ended ? BRC_PAUSE_ENDED
-                                                : s->run->step < total              ? BRC_PAUSE_GOING
-                                                                                    : BRC_PAUSE_DONE));
-        if (brc_simulation_is_to_stop(s)) {
-            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld",
-                              stage->name, (long long)s->run->step, (long long)total);
-            goto cleanup;
-        }
+        BRC_TRY(observe(n, part, n_bonds, every, frame_every, total));
+        BRC_TRY(brc_notify_pause(s, brc_simulation_is_to_stop(s)        ? BRC_PAUSE_INTERRUPTED
+                                    : s->run->note[s->run->stage].ended ? BRC_PAUSE_ENDED
+                                    : s->run->step < total              ? BRC_PAUSE_GOING
+                                                                        : BRC_PAUSE_DONE));
+        if (brc_simulation_is_to_stop(s))
+            return BRC_FAIL(s->context, BRC_INTERRUPTED, "stage '%s' was interrupted at step %lld of %lld", stage->name,
+                            (long long)s->run->step, (long long)total);
     }
     tell_regime(s, &before);
-cleanup:
-    brc_progress_finish(&progress);
-    return status;
+    return BRC_OK;
 }

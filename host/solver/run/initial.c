@@ -75,7 +75,7 @@ static brc_status add_dataset(brc_simulation *s, const char *path, hid_t file, c
 
 static brc_status from_file(brc_simulation *s, const brc_initial *field, const bool *member, double *u, double *v)
 {
-    char *path = NULL;
+    BRC_FREED char *path = NULL;
     if (field->file[0] == '/')
         BRC_TRY(brc_file_join(s->context, "", field->file + 1, &path));
     else
@@ -94,7 +94,6 @@ static brc_status from_file(brc_simulation *s, const brc_initial *field, const b
             status = BRC_FAIL(s->context, BRC_BAD_INPUT, "%s: holds neither 'displacement' nor 'velocity'", path);
         H5Fclose(file);
     }
-    brc_memory_free(path);
     return status;
 }
 
@@ -121,19 +120,16 @@ brc_status brc_initial_apply(brc_simulation *s, const brc_stage *stage)
 {
     if (stage->n_initials == 0) return BRC_OK;
     const brc_domain *d = s->domain;
-    double *u = NULL, *v = NULL;
-    bool *member = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "initial displacement"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &v, 3 * d->n_elements, "initial velocity"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "initial field"));
-    BRC_TRY_OR(cleanup, brc_simulation_displacement(s, u));
-    BRC_TRY_OR(cleanup, brc_simulation_velocity(s, v));
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, u, "initial displacement");
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, v, "initial velocity");
+    BRC_LOCAL(s->context, d->n_elements, bool, member, "initial field");
+    BRC_TRY(brc_simulation_displacement(s, u));
+    BRC_TRY(brc_simulation_velocity(s, v));
     for (int32_t i = 0; i < stage->n_initials; ++i) {
         const brc_initial *field = stage->initials + i;
-        BRC_TRY_OR(cleanup, mark_members(s, stage, field, member));
+        BRC_TRY(mark_members(s, stage, field, member));
         if (field->kind == BRC_INITIAL_FILE) {
-            BRC_TRY_OR(cleanup, from_file(s, field, member, u, v));
+            BRC_TRY(from_file(s, field, member, u, v));
             continue;
         }
         for (int64_t e = 0; e < d->n_elements; ++e) {
@@ -155,11 +151,6 @@ brc_status brc_initial_apply(brc_simulation *s, const brc_stage *stage)
                 to[3 * e + c] += add[c];
         }
     }
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, brc_displacement_of(s), u, 3, 0));
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, brc_velocity_of(s), v, 3, 0));
-cleanup:
-    brc_memory_free(u);
-    brc_memory_free(v);
-    brc_memory_free(member);
-    return status;
+    BRC_TRY(brc_state_to_rows(s, brc_displacement_of(s), u, 3, 0));
+    return brc_state_to_rows(s, brc_velocity_of(s), v, 3, 0);
 }

@@ -2,31 +2,27 @@
 #include "../../base/ranks.h"
 #include "run_internal.h"
 
+/* Every observer that has the member, in the phase of output. */
+#define NOTIFY(s, member, ...)                                                                                         \
+    const brc_step_phase before = brc_phase_enter((s), BRC_PHASE_OUTPUT);                                              \
+    for (const brc_observer *o = (s)->run->observers; o < (s)->run->observers + (s)->run->n_observers; ++o)            \
+        if (o->member) BRC_TRY(o->member(o->self, __VA_ARGS__));                                                       \
+    brc_phase_enter((s), before);                                                                                      \
+    return BRC_OK
+
 brc_status brc_notify_sample(brc_simulation *s)
 {
-    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
-    for (int i = 0; i < s->run->n_observers; ++i)
-        if (s->run->observers[i].sample) BRC_TRY(s->run->observers[i].sample(s->run->observers[i].self, s));
-    brc_phase_enter(s, before);
-    return BRC_OK;
+    NOTIFY(s, sample, s);
 }
 
 brc_status brc_notify_frame(brc_simulation *s)
 {
-    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
-    for (int i = 0; i < s->run->n_observers; ++i)
-        if (s->run->observers[i].frame) BRC_TRY(s->run->observers[i].frame(s->run->observers[i].self, s));
-    brc_phase_enter(s, before);
-    return BRC_OK;
+    NOTIFY(s, frame, s);
 }
 
 brc_status brc_notify_pause(brc_simulation *s, brc_pause why)
 {
-    const brc_step_phase before = brc_phase_enter(s, BRC_PHASE_OUTPUT);
-    for (int i = 0; i < s->run->n_observers; ++i)
-        if (s->run->observers[i].pause) BRC_TRY(s->run->observers[i].pause(s->run->observers[i].self, s, why));
-    brc_phase_enter(s, before);
-    return BRC_OK;
+    NOTIFY(s, pause, s, why);
 }
 
 bool brc_simulation_is_to_stop(brc_simulation *s)
@@ -55,7 +51,4 @@ void brc_simulation_set_trial_budget(brc_simulation *s, const brc_trial_budget *
     s->run->budget = budget;
 }
 
-bool brc_simulation_stopped_early(const brc_simulation *s)
-{
-    return s->run->stopped_early;
-}
+BRC_READ(bool, brc_simulation_stopped_early, s->run->stopped_early)

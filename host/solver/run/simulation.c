@@ -53,23 +53,20 @@ static brc_status share_rows(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *neighbour = NULL;
     if (brc_ranks_count() == 1) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
+    BRC_LOCAL(s->context, n, int32_t, neighbour, "neighbours");
     for (int32_t block = 0; block < layout->n_slices; ++block)
         for (int64_t k = (int64_t)layout->slot_start[block] * layout->slice;
              k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
             neighbour[k] = layout->half_edge[k] >= 0
                                ? layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]]
                                : block * layout->slice + (int32_t)(k % layout->slice);
-    const brc_status status = brc_device_share(s->device, &(brc_rows_of_device){.n_rows = layout->n_rows,
-                                                                                .n_groups = s->n_groups,
-                                                                                .n_slices = layout->n_slices,
-                                                                                .slice = layout->slice,
-                                                                                .slot_start = layout->slot_start,
-                                                                                .neighbour = neighbour});
-    brc_memory_free(neighbour);
-    return status;
+    return brc_device_share(s->device, &(brc_rows_of_device){.n_rows = layout->n_rows,
+                                                             .n_groups = s->n_groups,
+                                                             .n_slices = layout->n_slices,
+                                                             .slice = layout->slice,
+                                                             .slot_start = layout->slot_start,
+                                                             .neighbour = neighbour});
 }
 
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
@@ -77,8 +74,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
 {
     *out = NULL;
     const double start = brc_clock_s();
-    brc_simulation *s = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_simulation_free) brc_simulation *s = NULL;
     if (domain->n_elements < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "the domain has no elements");
     if (domain->element_kind == BRC_ELEMENT_SPHERE &&
         brc_bond_model_of(scene->model.kind)->element != BRC_ELEMENT_SPHERE)
@@ -102,34 +98,30 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     s->model = brc_bond_model_of(scene->model.kind);
     s->domain = domain;
     s->device = device;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->run, 1, "simulation"));
-    BRC_TRY_OR(cleanup, brc_core_create(s));
-    BRC_TRY_OR(cleanup, brc_statics_create(s));
+    BRC_TRY(BRC_ALLOCATE(context, &s->run, 1, "simulation"));
+    BRC_TRY(brc_core_create(s));
+    BRC_TRY(brc_statics_create(s));
     s->run->stage = -1;
-    if (brc_simulation_needs_many_materials(scene, domain) != brc_device_has_many_materials(device)) {
-        status = BRC_FAIL(context, BRC_INTERNAL, "the device was opened for %s material, the scene has %s",
-                          brc_device_has_many_materials(device) ? "several" : "one",
-                          brc_device_has_many_materials(device) ? "one" : "several");
-        goto cleanup;
-    }
-    BRC_TRY_OR(cleanup, brc_simulation_layout(context, scene, domain, brc_device_slice(device), &s->layout));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &s->run->note, scene->n_stages, "stages"));
-    BRC_TRY_OR(cleanup, find_materials(s));
+    if (brc_simulation_needs_many_materials(scene, domain) != brc_device_has_many_materials(device))
+        return BRC_FAIL(context, BRC_INTERNAL, "the device was opened for %s material, the scene has %s",
+                        brc_device_has_many_materials(device) ? "several" : "one",
+                        brc_device_has_many_materials(device) ? "one" : "several");
+    BRC_TRY(brc_simulation_layout(context, scene, domain, brc_device_slice(device), &s->layout));
+    BRC_TRY(BRC_ALLOCATE(context, &s->run->note, scene->n_stages, "stages"));
+    BRC_TRY(find_materials(s));
     brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
     s->n_groups = s->wants.n_groups;
-    BRC_TRY_OR(cleanup, share_rows(s));
-    if (s->model->create) BRC_TRY_OR(cleanup, s->model->create(s));
-    BRC_TRY_OR(cleanup, brc_core_passes_make(s));
-    BRC_TRY_OR(cleanup, brc_run_passes_make(s));
-    BRC_TRY_OR(cleanup, brc_geometry_create(s));
-    BRC_TRY_OR(cleanup, brc_simulation_fields_create(s));
-    BRC_TRY_OR(cleanup, brc_effects_create(s));
+    BRC_TRY(share_rows(s));
+    if (s->model->create) BRC_TRY(s->model->create(s));
+    BRC_TRY(brc_core_passes_make(s));
+    BRC_TRY(brc_run_passes_make(s));
+    BRC_TRY(brc_geometry_create(s));
+    BRC_TRY(brc_simulation_fields_create(s));
+    BRC_TRY(brc_effects_create(s));
     s->run->setup_seconds = brc_clock_s() - start;
     *out = s;
+    s = NULL;
     return BRC_OK;
-cleanup:
-    brc_simulation_free(&s);
-    return status;
 }
 
 void brc_simulation_free(brc_simulation **simulation)

@@ -38,39 +38,29 @@ typedef struct work_vectors {
     brc_buffer *x, *y, *theta, *orientation, *torque;
 } work_vectors;
 
-static bool dynamics(const brc_wants *w)
-{
-    bool any = false;
-    for (int32_t i = 0; i < w->scene->n_stages; ++i)
-        any |= w->scene->stages[i].solver == BRC_SOLVER_DYNAMIC;
-    return any;
-}
+BRC_WANTED(dynamics, brc_wants_solver(w, BRC_SOLVER_DYNAMIC))
 
 #define AT(member) BRC_FIELD_AT(work_vectors, member)
 static const brc_field_row rows[] = {
     {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(x), "power iteration", "-", BRC_NOT_KEPT},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(y), "power iteration", "-", BRC_NOT_KEPT},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(theta), "power iteration", "-", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "power iteration", "-",
-     BRC_NOT_KEPT},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "power iteration", "-", BRC_NOT_KEPT},
+    BRC_FIELD(theta, brc_each_row, 3, STATE, brc_wants_turning, "power iteration", "-"),
+    BRC_FIELD(orientation, brc_each_row, 4, STATE, brc_wants_turning, "power iteration", "-"),
+    BRC_FIELD(torque, brc_each_row, 3, STATE, brc_wants_turning, "power iteration", "-"),
 };
 BRC_FIELD_TABLE(brc_power_fields, "search for the time step", BRC_LIFE_SOLVE, dynamics, rows);
 
 static brc_status random_vector(brc_simulation *s, brc_buffer *out, uint64_t which, double scale)
 {
     const int64_t n = s->domain->n_elements;
-    double *values = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &values, 3 * n, "power iteration"));
+    BRC_LOCAL(s->context, 3 * n, double, values, "power iteration");
     for (int64_t e = 0; e < n; ++e) {
         double draws[4];
         brc_random_uniform4(1, BRC_RANDOM_POWER_ITERATION, (uint64_t)e, which, draws);
         for (int c = 0; c < 3; ++c)
             values[3 * e + c] = scale * (2 * draws[c] - 1);
     }
-    const brc_status status = brc_state_to_rows(s, out, values, 3, 0);
-    brc_memory_free(values);
-    return status;
+    return brc_state_to_rows(s, out, values, 3, 0);
 }
 
 /* One application: y = M^-1 K x (rotations likewise); *square: x.Mx, *rayleigh: x.Kx / x.Mx. x is scaled to y after. */

@@ -46,21 +46,16 @@ static void free_parts(parts *p)
 /* Places of all parts, then what they are supported at. */
 static brc_status begin_motions(brc_context *context, const brc_domain *d, parts *p)
 {
-    double *place = NULL;
-    int64_t *at = NULL, start = 0;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &place, 3 * d->n_elements, "parts of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &at, p->n, "parts of bodies"));
+    int64_t start = 0;
+    BRC_LOCAL(context, 3 * d->n_elements, double, place, "parts of bodies");
+    BRC_LOCAL(context, p->n, int64_t, at, "parts of bodies");
     for (int64_t i = 0; i < p->n; start += p->size[i++])
         at[i] = start;
     for (int64_t e = 0; e < d->n_elements; ++e)
         memcpy(place + 3 * at[p->of[e]]++, d->position + 3 * e, 3 * sizeof *place);
     for (int64_t i = 0; i < p->n; ++i)
         brc_free_motions_begin(&p->free[i], p->size[i], place + 3 * (at[i] - p->size[i]));
-cleanup:
-    brc_memory_free(place);
-    brc_memory_free(at);
-    return status;
+    return BRC_OK;
 }
 
 static bool is_motion_of(const brc_load *load, bool faces)

@@ -4,22 +4,18 @@
 brc_status brc_statics_project_free_motions(brc_simulation *s, const brc_solve_vectors *v, brc_unknowns r)
 {
     const int64_t n = s->domain->n_elements;
-    double *force = NULL, *torque = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED double *torque = NULL;
     if (!v->pieces.any) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "free motions"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, r.move, force, 3));
+    BRC_LOCAL(s->context, 3 * n, double, force, "free motions");
+    BRC_TRY(brc_state_from_rows(s, r.move, force, 3));
     if (r.turn) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
-        BRC_TRY_OR(cleanup, brc_state_from_rows(s, r.turn, torque, 3));
+        BRC_TRY(BRC_ALLOCATE(s->context, &torque, 3 * n, "free motions"));
+        BRC_TRY(brc_state_from_rows(s, r.turn, torque, 3));
     }
-    BRC_TRY_OR(cleanup, brc_pieces_project(s->context, &v->pieces, force, torque));
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, r.move, force, 3, 0));
-    if (torque) BRC_TRY_OR(cleanup, brc_state_to_rows(s, r.turn, torque, 3, 0));
-cleanup:
-    brc_memory_free(force);
-    brc_memory_free(torque);
-    return status;
+    BRC_TRY(brc_pieces_project(s->context, &v->pieces, force, torque));
+    BRC_TRY(brc_state_to_rows(s, r.move, force, 3, 0));
+    if (torque) BRC_TRY(brc_state_to_rows(s, r.turn, torque, 3, 0));
+    return BRC_OK;
 }
 
 brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v)

@@ -29,7 +29,7 @@ static brc_status precondition(brc_simulation *s, brc_solve_vectors *v, const do
         BRC_TRY(brc_statics_project_free_motions(s, v, v->p)); /* which it would make large */
         BRC_TRY(brc_multigrid_apply(v->preconditioner.multigrid, v->p, v->z));
         BRC_TRY(brc_statics_project_free_motions(s, v, v->z));
-        return brc_download(s, v->z.move, brc_precision_state_bytes(brc_device_get_precision(s->device)), z, 3 * rows);
+        return brc_download(s, v->z.move, brc_state_bytes(s), z, 3 * rows);
     }
     for (int64_t r = 0; r < rows; ++r) {
         const double *p = blocks + 6 * r, *x = from + 3 * r;
@@ -46,7 +46,7 @@ static brc_status multiply(brc_simulation *s, brc_solve_vectors *v, const double
     BRC_TRY(brc_upload_state(s, v->p.move, z, n));
     BRC_TRY(brc_constrain(s, v->p.move, NULL));
     BRC_TRY(brc_statics_apply(s, v));
-    BRC_TRY(brc_download(s, v->kp.move, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, n));
+    BRC_TRY(brc_download(s, v->kp.move, brc_state_bytes(s), out, n));
     for (int64_t i = 0; i < n; ++i)
         out[i] = -out[i];
     return BRC_OK;
@@ -58,7 +58,7 @@ static brc_status begin_with_blocks(brc_simulation *s, brc_solve_vectors *v, int
 {
     brc_preconditioner_give_up(s, v);
     memset(x, 0, (size_t)n * sizeof *x);
-    BRC_TRY(brc_download(s, v->r.move, brc_precision_state_bytes(brc_device_get_precision(s->device)), r, n));
+    BRC_TRY(brc_download(s, v->r.move, brc_state_bytes(s), r, n));
     *norm = sqrt(dot(r, r, n));
     return BRC_OK;
 }
@@ -73,7 +73,7 @@ typedef struct space {
 static brc_status make(brc_simulation *s, brc_solve_vectors *v, space *q)
 {
     const int64_t rows = s->layout->n_rows, n = q->n;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &q->basis, (RESTART + 1) * n, "GMRES basis"));
     BRC_TRY(BRC_ALLOCATE(s->context, &q->x, n, "GMRES"));
     BRC_TRY(BRC_ALLOCATE(s->context, &q->r, n, "GMRES"));
@@ -128,7 +128,7 @@ static brc_status grow(brc_simulation *s, brc_solve_vectors *v, space *q, double
 /* x becomes what is nearest in the space of k vectors, r the true residual. */
 static brc_status step(brc_simulation *s, brc_solve_vectors *v, space *q, int k)
 {
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     double y[RESTART];
     for (int i = k - 1; i >= 0; --i) {
         y[i] = q->g[i];

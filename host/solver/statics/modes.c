@@ -37,24 +37,18 @@ typedef struct mode_space {
     double *blocks;                                     /* [n_rows][6]; NULL: multigrid */
     brc_multigrid *multigrid;
     brc_pieces pieces;    /* whose free motions multigrid would make large */
-    unsigned char *fixed; /* [n] 1: imposed */
+    unsigned char *fixed; /* [n] 1: prescribed */
     brc_buffer *in, *out, *orientation, *torque;
 } mode_space;
 
-static bool modes(const brc_wants *w)
-{
-    bool any = false;
-    for (int32_t i = 0; i < w->scene->n_stages; ++i)
-        any |= w->scene->stages[i].solver == BRC_SOLVER_MODES;
-    return any;
-}
+BRC_WANTED(modes, brc_wants_solver(w, BRC_SOLVER_MODES))
 
 #define AT(member) BRC_FIELD_AT(mode_space, member)
 static const brc_field_row mode_rows[] = {
     {"displacement", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(in), "modes", "-", BRC_NOT_KEPT},
     {"force", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(out), "modes", "-", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "modes", "-", BRC_NOT_KEPT},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, brc_wants_turning, AT(torque), "modes", "-", BRC_NOT_KEPT},
+    BRC_FIELD(orientation, brc_each_row, 4, STATE, brc_wants_turning, "modes", "-"),
+    BRC_FIELD(torque, brc_each_row, 3, STATE, brc_wants_turning, "modes", "-"),
 };
 BRC_FIELD_TABLE(brc_mode_fields, "free vibration modes", BRC_LIFE_SOLVE, modes, mode_rows);
 
@@ -89,8 +83,7 @@ static brc_status allocate(mode_space *t)
     BRC_TRY(brc_fields_create(s->device, &brc_mode_fields, &s->wants, t));
     BRC_TRY(prepare_preconditioner(t));
     double *mass = t->w; /* scratch */
-    BRC_TRY(brc_download(s, brc_mass_of(s), brc_precision_state_bytes(brc_device_get_precision(s->device)), mass,
-                         t->n / 3));
+    BRC_TRY(brc_download(s, brc_mass_of(s), brc_state_bytes(s), mass, t->n / 3));
     for (int64_t i = 0; i < t->n; ++i) {
         t->mass[i] = mass[i / 3];
         t->fixed[i] = s->layout->element_of_row[i / 3] < 0;
@@ -124,7 +117,7 @@ static brc_status multiply(mode_space *t, const double *in, double *out)
                                                        .orientation = t->orientation,
                                                        .torque = t->torque,
                                                        .homogeneous = true}));
-    BRC_TRY(brc_download(s, t->out, brc_precision_state_bytes(brc_device_get_precision(s->device)), out, t->n));
+    BRC_TRY(brc_download(s, t->out, brc_state_bytes(s), out, t->n));
     for (int64_t i = 0; i < t->n; ++i)
         out[i] = t->fixed[i] ? 0 : -out[i];
     return BRC_OK;
@@ -174,8 +167,7 @@ static brc_status gram_matrix(mode_space *t, int count, double *const *u, double
 {
     const int64_t n_chunks = (t->n + CHUNK - 1) / CHUNK;
     enum { PARTS = 16 };
-    double *parts = NULL;
-    BRC_TRY(BRC_ALLOCATE(t->s->context, &parts, (int64_t)PARTS * count * count, "modes"));
+    BRC_LOCAL(t->s->context, (int64_t)PARTS * count * count, double, parts, "modes");
 #pragma omp parallel for schedule(dynamic, 1)
     for (int part = 0; part < PARTS; ++part)
         for (int64_t chunk = n_chunks * part / PARTS; chunk < n_chunks * (part + 1) / PARTS; ++chunk) {
@@ -200,7 +192,6 @@ static brc_status gram_matrix(mode_space *t, int count, double *const *u, double
     for (int part = 0; part < PARTS; ++part)
         for (int k = 0; k < count * count; ++k)
             gram[k] += parts[(int64_t)part * count * count + k];
-    brc_memory_free(parts);
     return BRC_OK;
 }
 
@@ -255,7 +246,7 @@ static brc_status precondition(mode_space *t, double *w)
         BRC_TRY(brc_statics_project_free_motions(s, &pieces, in));
         BRC_TRY(brc_multigrid_apply(t->multigrid, in, out));
         BRC_TRY(brc_statics_project_free_motions(s, &pieces, out));
-        BRC_TRY(brc_download(s, t->out, brc_precision_state_bytes(brc_device_get_precision(s->device)), w, t->n));
+        BRC_TRY(brc_download(s, t->out, brc_state_bytes(s), w, t->n));
     }
     for (int64_t r = 0; t->blocks && r < t->n / 3; ++r) {
         const double *b = t->blocks + 6 * r, a0 = w[3 * r], a1 = w[3 * r + 1], a2 = w[3 * r + 2];
@@ -290,16 +281,13 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
 {
     const int m = t->m, most = 3 * m;
     brc_simulation *s = t->s;
-    double **u = NULL, **ku = NULL, *k_small = NULL, *g_small = NULL, *coefficients = NULL, *before = NULL;
-    unsigned char *active = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ku, most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &k_small, most * most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &g_small, most * most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &coefficients, m * most, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &before, m, "modes"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &active, m, "modes"));
+    BRC_LOCAL(s->context, most, double *, u, "modes");
+    BRC_LOCAL(s->context, most, double *, ku, "modes");
+    BRC_LOCAL(s->context, most * most, double, k_small, "modes");
+    BRC_LOCAL(s->context, most * most, double, g_small, "modes");
+    BRC_LOCAL(s->context, m * most, double, coefficients, "modes");
+    BRC_LOCAL(s->context, m, double, before, "modes");
+    BRC_LOCAL(s->context, m, unsigned char, active, "modes");
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         int count = 0;
         for (int k = 0; k < m; ++k, ++count)
@@ -308,10 +296,10 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
             if (active[k]) u[count] = t->w + k * t->n, ku[count++] = t->kw + k * t->n;
         for (int k = 0; k < m; ++k)
             if (active[k] && round > 1) u[count] = t->p + k * t->n, ku[count++] = t->kp + k * t->n;
-        BRC_TRY_OR(cleanup, gram_matrix(t, count, u, ku, NULL, k_small));
-        BRC_TRY_OR(cleanup, gram_matrix(t, count, u, u, t->mass, g_small));
-        BRC_TRY_OR(cleanup, brc_rayleigh_ritz(t->s->context, t->s->model->statics->symmetric, t->m, count, k_small,
-                                              g_small, values, coefficients));
+        BRC_TRY(gram_matrix(t, count, u, ku, NULL, k_small));
+        BRC_TRY(gram_matrix(t, count, u, u, t->mass, g_small));
+        BRC_TRY(brc_rayleigh_ritz(t->s->context, t->s->model->statics->symmetric, t->m, count, k_small, g_small, values,
+                                  coefficients));
         if (count > m) { /* directions: the part of the new vectors outside the old ones */
             combine(t, count, m, u, coefficients, t->fresh);
             combine(t, count, m, ku, coefficients, t->k_fresh);
@@ -336,32 +324,21 @@ static brc_status iterate(mode_space *t, double *values, int wanted, brc_progres
         const double worst = residuals(t, values, wanted, active);
         brc_progress_update(progress, round + 1);
         s->statics->report.iterations = round + 1;
-        if (worst < settled) goto cleanup;
+        if (worst < settled) return BRC_OK;
         if ((round + 1) % WATCH == 0 &&
             change_since(values, before, m - GUARD_VECTORS) < steady[!s->model->statics->symmetric])
-            goto cleanup;
-        if (brc_trial_is_over(s)) goto cleanup;
-        if (brc_simulation_is_to_stop(s)) {
-            status = BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
-            goto cleanup;
-        }
-        if (!memchr(active, 1, (size_t)m)) goto cleanup;
+            return BRC_OK;
+        if (brc_trial_is_over(s)) return BRC_OK;
+        if (brc_simulation_is_to_stop(s))
+            return BRC_FAIL(s->context, BRC_INTERRUPTED, "interrupted in the modes solver");
+        if (!memchr(active, 1, (size_t)m)) return BRC_OK;
         for (int k = 0; k < m; ++k) {
             if (!active[k]) continue;
-            BRC_TRY_OR(cleanup, precondition(t, t->w + k * t->n));
-            BRC_TRY_OR(cleanup, multiply(t, t->w + k * t->n, t->kw + k * t->n));
+            BRC_TRY(precondition(t, t->w + k * t->n));
+            BRC_TRY(multiply(t, t->w + k * t->n, t->kw + k * t->n));
         }
     }
-    status = BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the modes did not settle in %d rounds", MOST_ROUNDS);
-cleanup:
-    brc_memory_free(u);
-    brc_memory_free(ku);
-    brc_memory_free(k_small);
-    brc_memory_free(g_small);
-    brc_memory_free(coefficients);
-    brc_memory_free(before);
-    brc_memory_free(active);
-    return status;
+    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED, "the modes did not settle in %d rounds", MOST_ROUNDS);
 }
 
 brc_status brc_modes_run(brc_simulation *s)

@@ -59,8 +59,7 @@ static brc_status find_free(brc_simulation *s, const int32_t *piece, brc_pieces 
 
 brc_status brc_pieces_number(brc_context *context, const brc_domain *d, int32_t *piece, int64_t *n)
 {
-    int32_t *stack = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &stack, d->n_elements, "pieces"));
+    BRC_LOCAL(context, d->n_elements, int32_t, stack, "pieces");
     *n = 0;
     for (int64_t e = 0; e < d->n_elements; ++e)
         piece[e] = -1;
@@ -79,25 +78,19 @@ brc_status brc_pieces_number(brc_context *context, const brc_domain *d, int32_t 
         }
         ++*n;
     }
-    brc_memory_free(stack);
     return BRC_OK;
 }
 
 brc_status brc_pieces_find(brc_simulation *s, brc_pieces *out)
 {
-    int32_t *piece = NULL;
-    brc_status status = BRC_OK;
     brc_pieces_free(out);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &piece, s->domain->n_elements, "pieces"));
+    BRC_LOCAL(s->context, s->domain->n_elements, int32_t, piece, "pieces");
     if (s->fracture)
-        BRC_TRY_OR(cleanup, brc_simulation_fragments(s, piece, &out->n));
+        BRC_TRY(brc_simulation_fragments(s, piece, &out->n));
     else
-        BRC_TRY_OR(cleanup, brc_pieces_number(s->context, s->domain, piece, &out->n));
-    BRC_TRY_OR(cleanup, sort_elements(s, piece, out));
-    status = find_free(s, piece, out);
-cleanup:
-    brc_memory_free(piece);
-    return status;
+        BRC_TRY(brc_pieces_number(s->context, s->domain, piece, &out->n));
+    BRC_TRY(sort_elements(s, piece, out));
+    return find_free(s, piece, out);
 }
 
 void brc_pieces_free(brc_pieces *pieces)
@@ -111,8 +104,7 @@ void brc_pieces_free(brc_pieces *pieces)
 
 brc_status brc_pieces_project(brc_context *context, const brc_pieces *p, double *force, double *torque)
 {
-    double *part = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &part, 6 * p->start[p->n], "pieces"));
+    BRC_LOCAL(context, 6 * p->start[p->n], double, part, "pieces");
     for (int64_t i = 0; i < p->n; ++i) {
         const int64_t first = p->start[i], n = p->start[i + 1] - first;
         if (p->free[i].n == 0) continue;
@@ -128,6 +120,5 @@ brc_status brc_pieces_project(brc_context *context, const brc_pieces *p, double 
             if (torque) torque[of] = part[3 * n + k];
         }
     }
-    brc_memory_free(part);
     return BRC_OK;
 }

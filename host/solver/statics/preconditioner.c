@@ -7,12 +7,9 @@
 brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v)
 {
     const int64_t n = s->layout->n_rows, width = brc_solves_rotations(s->model) ? 21 : 6;
-    double *blocks = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &blocks, width * n, "preconditioner"));
-    brc_status status = s->model->statics->blocks(s, blocks);
-    if (status == BRC_OK) status = brc_upload_state(s, v->preconditioner.blocks, blocks, width * n);
-    brc_memory_free(blocks);
-    return status;
+    BRC_LOCAL(s->context, width * n, double, blocks, "preconditioner");
+    BRC_TRY(s->model->statics->blocks(s, blocks));
+    return brc_upload_state(s, v->preconditioner.blocks, blocks, width * n);
 }
 
 brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)

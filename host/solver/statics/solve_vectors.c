@@ -2,18 +2,9 @@
 #include "multigrid/multigrid.h"
 #include "statics_internal.h"
 
-static bool solves_rotations(const brc_wants *w)
-{
-    return brc_solves_rotations(w->model);
-}
-static bool solves_moves(const brc_wants *w)
-{
-    return !brc_solves_rotations(w->model);
-}
-static bool settles_rotations(const brc_wants *w)
-{
-    return w->model->statics && w->model->statics->torques;
-}
+BRC_WANTED(solves_rotations, brc_solves_rotations(w->model))
+BRC_WANTED(solves_moves, !brc_solves_rotations(w->model))
+BRC_WANTED(settles_rotations, w->model->statics && w->model->statics->torques)
 static bool statics(const brc_wants *w)
 {
     bool any = false;
@@ -35,12 +26,10 @@ static const brc_field_row rows[] = {
     UNKNOWNS("z", z),
     UNKNOWNS("p", p),
     UNKNOWNS("kp", kp),
-    {"before", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(before), "static solver", "m",
-     BRC_KEPT("static.before", BRC_KEEP_ALL)},
-    {"zero", brc_each_row, 3, BRC_FIELD_STATE, settles_rotations, AT(zero), "static solver", "-", BRC_NOT_KEPT},
-    {"orientation", brc_each_row, 4, BRC_FIELD_STATE, brc_wants_turning, AT(orientation), "static solver", "-",
-     BRC_NOT_KEPT},
-    {"theta", brc_each_row, 3, BRC_FIELD_STATE, solves_rotations, AT(theta), "static solver", "rad", BRC_NOT_KEPT},
+    BRC_KEPT_FIELD(before, brc_each_row, 3, STATE, NULL, "static solver", "m", "static.before"),
+    BRC_FIELD(zero, brc_each_row, 3, STATE, settles_rotations, "static solver", "-"),
+    BRC_FIELD(orientation, brc_each_row, 4, STATE, brc_wants_turning, "static solver", "-"),
+    BRC_FIELD(theta, brc_each_row, 3, STATE, solves_rotations, "static solver", "rad"),
     {"block", brc_each_row, 6, BRC_FIELD_STATE, solves_moves, AT(preconditioner.blocks), "preconditioner", "-",
      BRC_NOT_KEPT},
     {"block", brc_each_row, 21, BRC_FIELD_STATE, solves_rotations, AT(preconditioner.blocks), "preconditioner", "-",
@@ -50,7 +39,7 @@ BRC_FIELD_TABLE(brc_solve_fields, "static solver", BRC_LIFE_SOLVE, statics, rows
 
 brc_status brc_solve_vectors_create(brc_simulation *s, brc_solve_vectors *v)
 {
-    v->state_bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    v->state_bytes = brc_state_bytes(s);
     v->arm = 1;
     BRC_TRY(brc_fields_create(s->device, &brc_solve_fields, &s->wants, v));
     if (s->domain->radius) {

@@ -25,36 +25,28 @@ static brc_status balance_free_body(brc_simulation *s, bool finite)
 {
     static const double rigid_most = 1e-3;
     const int64_t n = s->domain->n_elements;
-    double *place = NULL, *torque = NULL, *force = NULL, rigid, square = 0;
-    brc_status status = BRC_OK;
+    double rigid, square = 0;
     bool moved = false;
     brc_loads_each_prescribed(s, note_moved, &moved);
     if (moved || !brc_solves_rotations(s->model)) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "balance"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &torque, 3 * n, "balance"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &force, 3 * n, "balance"));
-    if (finite) BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_displacement_of(s), place, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_torque_of(s), torque, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_force_of(s), force, 3));
+    BRC_LOCAL(s->context, 3 * n, double, place, "balance");
+    BRC_LOCAL(s->context, 3 * n, double, torque, "balance");
+    BRC_LOCAL(s->context, 3 * n, double, force, "balance");
+    if (finite) BRC_TRY(brc_state_from_rows(s, brc_displacement_of(s), place, 3));
+    BRC_TRY(brc_state_from_rows(s, brc_torque_of(s), torque, 3));
+    BRC_TRY(brc_state_from_rows(s, brc_force_of(s), force, 3));
     for (int64_t k = 0; k < 3 * n; ++k) {
         place[k] += s->domain->position[k];
         square += force[k] * force[k];
     }
     brc_balance(n, place, torque, force, &rigid);
-    if (s->statics->report.iterations == 0 && rigid > rigid_most * sqrt(square)) {
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or "
-                          "turn it as a whole; hold "
-                          "some elements, or use a radial element_force",
-                          brc_current_stage(s)->name, rigid / sqrt(square));
-        goto cleanup;
-    }
-    status = brc_state_to_rows(s, brc_force_of(s), force, 3, 0);
-cleanup:
-    brc_memory_free(place);
-    brc_memory_free(torque);
-    brc_memory_free(force);
-    return status;
+    if (s->statics->report.iterations == 0 && rigid > rigid_most * sqrt(square))
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "stage '%s': nothing holds the body and its loads do not balance: %.3g of them would move or "
+                        "turn it as a whole; hold "
+                        "some elements, or use a radial element_force",
+                        brc_current_stage(s)->name, rigid / sqrt(square));
+    return brc_state_to_rows(s, brc_force_of(s), force, 3, 0);
 }
 
 brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm)
@@ -65,7 +57,7 @@ brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, b
                                                        .torque = brc_torque_of(s),
                                                        .finite = finite,
                                                        .t = brc_loads_time(s)}));
-    /* the residual of the free components; reactions of imposed elements were read just before */
+    /* the residual of the free components; reactions of prescribed elements were read just before */
     BRC_TRY(brc_constrain(s, brc_force_of(s), NULL));
     BRC_TRY(balance_free_body(s, finite));
     double square;
@@ -84,19 +76,13 @@ brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, b
 static brc_status read_theta(brc_simulation *s, brc_solve_vectors *v)
 {
     const int64_t n = s->domain->n_elements;
-    double *q = NULL, *theta = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &theta, 3 * n, "rotations"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_orientation_of(s), q, 4));
+    BRC_LOCAL(s->context, 4 * n, double, q, "orientations");
+    BRC_LOCAL(s->context, 3 * n, double, theta, "rotations");
+    BRC_TRY(brc_state_from_rows(s, brc_orientation_of(s), q, 4));
     for (int64_t e = 0; e < n; ++e)
         for (int c = 0; c < 3; ++c)
             theta[3 * e + c] = 2 * q[4 * e + 1 + c] / q[4 * e];
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, v->theta, theta, 3, 0));
-cleanup:
-    brc_memory_free(q);
-    brc_memory_free(theta);
-    return status;
+    return brc_state_to_rows(s, v->theta, theta, 3, 0);
 }
 
 double brc_statics_tolerance(const brc_simulation *s)
@@ -138,27 +124,24 @@ static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double no
 {
     static const double few = 8;
     const int64_t n = 3 * (int64_t)s->layout->n_rows;
-    double *u = NULL, square;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, n, "rounding"));
-    BRC_TRY_OR(cleanup, brc_download(s, brc_displacement_of(s), v->state_bytes, u, n));
+    double square;
+    BRC_LOCAL(s->context, n, double, u, "rounding");
+    BRC_TRY(brc_download(s, brc_displacement_of(s), v->state_bytes, u, n));
     for (int64_t i = 0; i < n; ++i) {
         double draws[4];
         brc_random_uniform4(0, BRC_RANDOM_POWER_ITERATION, (uint64_t)i, 2, draws);
         u[i] *= (draws[0] - 0.5) * (v->state_bytes == 8 ? DBL_EPSILON : FLT_EPSILON);
     }
-    BRC_TRY_OR(cleanup, brc_upload_state(s, v->p.move, u, n));
-    if (v->p.turn) BRC_TRY_OR(cleanup, brc_buffer_fill_zero(v->p.turn));
-    BRC_TRY_OR(cleanup, brc_constrain(s, v->p.move, NULL));
-    BRC_TRY_OR(cleanup, brc_statics_apply(s, v));
-    BRC_TRY_OR(cleanup, brc_statics_square(s, v, v->kp, &square));
+    BRC_TRY(brc_upload_state(s, v->p.move, u, n));
+    if (v->p.turn) BRC_TRY(brc_buffer_fill_zero(v->p.turn));
+    BRC_TRY(brc_constrain(s, v->p.move, NULL));
+    BRC_TRY(brc_statics_apply(s, v));
+    BRC_TRY(brc_statics_square(s, v, v->kp, &square));
     *out = norm <= few * sqrt(square);
     brc_log(s->context, *out ? BRC_LOG_INFO : BRC_LOG_DEBUG,
             "stage '%s': the residual stands at %.3g of the load; rounding of the displacements leaves %.3g",
             brc_current_stage(s)->name, norm / reference, sqrt(square) / reference);
-cleanup:
-    brc_memory_free(u);
-    return status;
+    return BRC_OK;
 }
 
 /* The rotations that balance the torques of the displacements just found, into the orientations. */
@@ -237,8 +220,6 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
 {
     const int64_t n = s->domain->n_elements;
     const bool finite = brc_current_stage(s)->finite_strain;
-    double *q = NULL;
-    brc_status status = BRC_OK;
     if (factor == 0) { /* also of a state that is not finite */
         BRC_TRY(brc_buffer_fill_zero(brc_displacement_of(s)));
         return s->model->turns ? brc_vector_small_rotation(s, brc_displacement_of(s), brc_orientation_of(s)) : BRC_OK;
@@ -247,8 +228,8 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
     BRC_TRY(
         brc_unknowns_add(s, factor - 1, (brc_unknowns){v->z.move, NULL}, (brc_unknowns){brc_displacement_of(s), NULL}));
     if (!s->model->turns) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * n, "orientations"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_orientation_of(s), q, 4));
+    BRC_LOCAL(s->context, 4 * n, double, q, "orientations");
+    BRC_TRY(brc_state_from_rows(s, brc_orientation_of(s), q, 4));
     for (int64_t e = 0; e < n; ++e) {
         double square = 1;
         for (int c = 1; c < 4; ++c) {
@@ -259,11 +240,9 @@ brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double fac
         for (int c = 0; finite && c < 4; ++c)
             q[4 * e + c] /= sqrt(square);
     }
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, brc_orientation_of(s), q, 4,
-                                          0.5)); /* rows of padding: some unit quaternion, none of length 0 */
-cleanup:
-    brc_memory_free(q);
-    return status;
+    BRC_TRY(brc_state_to_rows(s, brc_orientation_of(s), q, 4,
+                              0.5)); /* rows of padding: some unit quaternion, none of length 0 */
+    return BRC_OK;
 }
 
 /* No table, or the one that stands for none: the fraction of the load itself. */

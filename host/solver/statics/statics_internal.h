@@ -72,14 +72,14 @@ brc_status brc_statics_square(brc_simulation *s, const brc_solve_vectors *v, brc
 /* Force on the free components of the state into the simulation's own force array, and its norm [N]. finite: full
  * law. */
 brc_status brc_statics_residual(brc_simulation *s, const brc_solve_vectors *v, bool finite, double *norm);
-/* kp = -K p of the linearised operator, imposed components zero. */
+/* kp = -K p of the linearised operator, prescribed components zero. */
 brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v);
 /* Residual over load at which the stage's equilibrium counts as reached [-]. */
 /* Blocks; before a solve: multigrid where it is worth it, anew where bonds broke since it was made and iterations have
  * grown by half. */
 brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v);
 brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v);
-/* z = M r, imposed components zero. rotations: as in brc_conjugate_gradients. */
+/* z = M r, prescribed components zero. rotations: as in brc_conjugate_gradients. */
 brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, bool rotations);
 brc_status brc_preconditioner_store(brc_preconditioner *preconditioner, brc_state_store *store);
 /* A solve took so many iterations from a residual to another. */

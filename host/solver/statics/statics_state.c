@@ -12,10 +12,7 @@ void brc_statics_free(brc_simulation *s)
     s->statics = NULL;
 }
 
-brc_static_report brc_simulation_static_report(const brc_simulation *s)
-{
-    return s->statics->report;
-}
+BRC_READ(brc_static_report, brc_simulation_static_report, s->statics->report)
 
 const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
 {
@@ -23,10 +20,7 @@ const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
     return s->statics->modes;
 }
 
-double brc_statics_released(const brc_simulation *s)
-{
-    return s->statics->released;
-}
+BRC_READ(double, brc_statics_released, s->statics->released)
 
 brc_status brc_statics_store(brc_simulation *s, brc_state_store *store)
 {

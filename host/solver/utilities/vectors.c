@@ -42,8 +42,7 @@ static brc_status add_partial(brc_simulation *s, int64_t n_blocks, double *out)
 {
     double *blocks = NULL;
     BRC_TRY(BRC_ALLOCATE(s->context, &blocks, n_blocks, "block sums"));
-    const brc_status status = brc_download(
-        s, brc_partial_of(s), brc_precision_state_bytes(brc_device_get_precision(s->device)), blocks, n_blocks);
+    const brc_status status = brc_download(s, brc_partial_of(s), brc_state_bytes(s), blocks, n_blocks);
     double sum = 0, lost = 0;
     for (int64_t b = 0; b < n_blocks; ++b) {
         const double next = sum + blocks[b];

@@ -16,9 +16,9 @@ KERNEL void impose_motion(int n, state factor, state rate, int set_displacement,
     }
 }
 
-/* Reaction of imposed elements, minus the internal force [N] [n][3]. book: 0 no more; 1 adds the work of the load since
- * the last booking: reaction over the path by the trapezoidal rule plus the change of the imposed components' own
- * kinetic energy [J]; 2 starts booking here. last, last_reaction [n][3]: u and reaction at the last booking. */
+/* Reaction of prescribed elements, minus the internal force [N] [n][3]. book: 0 no more; 1 adds the work of the load
+ * since the last booking: reaction over the path by the trapezoidal rule plus the change of the prescribed components'
+ * own kinetic energy [J]; 2 starts booking here. last, last_reaction [n][3]: u and reaction at the last booking. */
 KERNEL void impose_book(int n, state rate, state last_rate, int book, OWN(int) element, OWN(coeff) component,
                         OWN(state) direction, OWN(state) mass, OWN(state) displacement, OWN(state) force,
                         PUT(state) reaction, UPDATE(state) last, UPDATE(state) last_reaction, UPDATE(state) work)
@@ -43,7 +43,7 @@ KERNEL void impose_book(int n, state rate, state last_rate, int book, OWN(int) e
     }
 }
 
-/* Zero the chosen components of a vector: imposed elements in linear solves. */
+/* Zero the chosen components of a vector: prescribed elements in linear solves. */
 KERNEL void impose_zero(int n, OWN(int) element, OWN(coeff) component, PUT(state) vector)
 {
     FOR_EACH_ITEM(i, n) {

@@ -2,7 +2,8 @@
 
 #include "../../../host/base/log.h"
 #include "../../../host/base/memory.h"
-#include "../../../preprocess/packing/packing_internal.h"
+#include "../../../preprocess/packing/packing.h"
+#include "../../../preprocess/packing/start.h"
 
 #include <string.h>
 

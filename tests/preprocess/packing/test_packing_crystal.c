@@ -2,7 +2,7 @@
 
 #include "../../../host/base/memory.h"
 #include "../../../host/base/random.h"
-#include "../../../preprocess/packing/packing_internal.h"
+#include "../../../preprocess/packing/soft_spheres.h"
 
 #include <string.h>
 
@@ -30,15 +30,13 @@ static brc_solid *room(brc_context *context)
 static double share_of(brc_context *context, int64_t n, double (*x)[3])
 {
     brc_solid *solid = room(context);
-    brc_pack pack;
+    brc_pack *pack;
     assert_int_equal(brc_pack_create(context, solid, n, 2, &pack), BRC_OK);
-    for (int64_t i = 0; i < n; ++i) {
-        memcpy(pack.sphere[i], x[i], sizeof x[i]);
-        pack.sphere[i][3] = 0.5;
-    }
-    pack.mean_radius = pack.largest_radius = 0.5;
+    for (int64_t i = 0; i < n; ++i)
+        brc_pack_put(pack, i, x[i], 0.5);
+    brc_pack_set_radii(pack, 0.5, 0.5);
     double share;
-    assert_int_equal(brc_pack_crystal(&pack, &share), BRC_OK);
+    assert_int_equal(brc_pack_crystal(pack, &share), BRC_OK);
     brc_pack_free(&pack);
     brc_solid_free(&solid);
     return share;

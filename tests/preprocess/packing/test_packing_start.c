@@ -1,7 +1,7 @@
 #include "../support.h"
 
 #include "../../../host/base/memory.h"
-#include "../../../preprocess/packing/packing_internal.h"
+#include "../../../preprocess/packing/start.h"
 
 #include <string.h>
 

@@ -75,7 +75,7 @@ static void one_break(case_options o, int64_t steps, double share)
     const double e_old = energy(&c), lost_old = lost(&c);
     assert_done(&c, brc_cell_breaks_step(s, half_kick, share * ratio));
     assert_done(&c, brc_simulation_broken(s, &after));
-    const brc_ring_list *list = &rings_of(&c)->around;
+    const brc_ring_list *list = brc_rings_around(rings_of(&c));
     print_message("%lld bonds broken before, %lld now; rings of %d, %d, %d, %d of %lld elements\n", (long long)before,
                   (long long)(after - before), (int)list->n[0], (int)list->n[1], (int)list->n[2], (int)list->n[3],
                   (long long)c.domain->n_elements);
@@ -200,7 +200,7 @@ static void the_same_bonds_break_as_with_whole_evaluations(case_options o)
     for (int k = 0; k < 2; ++k) {
         open_case(&c[k], o);
         begin_first(&c[k]);
-        rings_of(&c[k])->whole_force = k == 1;
+        if (k == 1) brc_rings_make_whole(rings_of(&c[k]));
         run_steps(&c[k], 60);
         assert_done(&c[k], brc_simulation_breaks(c[k].simulation, &n[k], &events[k]));
     }

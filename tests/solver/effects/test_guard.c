@@ -90,7 +90,7 @@ static void a_sound_run_is_left_alone_and_its_looks_are_counted(void **state)
     const brc_guard_report report = brc_simulation_guard_report(c.simulation);
     assert_int_equal(report.every, 256);
     assert_int_equal(report.ledger_every, 1024);
-    assert_true(report.looks >= 2000 / 256); /* and one at every sample */
+    assert_true(report.probes >= 2000 / 256); /* and one at every sample */
     assert_true(report.ledgers >= 2 &&
                 report.ledgers < 50); /* at 1024 and at the end; samples every 4 steps have none */
     close_case(&c);

@@ -162,16 +162,16 @@ static void two_materials_in_series_carry_one_stress(void **state)
     if (!(far[1] < 0.5 * far[0])) fail_msg("far cells %g, then %g", far[0], far[1]);
 }
 
-/* Norm of the forces on components that nothing holds [N], and the sum of their x components; imposed elements are held
- * in x. */
-static double free_residual(bench_case *c, const bool *imposed, double *sum)
+/* Norm of the forces on components that nothing holds [N], and the sum of their x components; prescribed elements are
+ * held in x. */
+static double free_residual(bench_case *c, const bool *prescribed, double *sum)
 {
     const int64_t n = c->domain->n_elements;
     double *f = calloc((size_t)(3 * n), sizeof *f), squares = 0;
     *sum = 0;
     assert_done(c, brc_simulation_force(c->simulation, f));
     for (int64_t i = 0; i < 3 * n; ++i) {
-        if (imposed[i / 3] && i % 3 == 0) continue;
+        if (prescribed[i / 3] && i % 3 == 0) continue;
         squares += f[i] * f[i];
         if (i % 3 == 0) *sum += f[i];
     }
@@ -197,26 +197,27 @@ static void published_tension_is_near_the_given_values(void **state)
     assert_done(&c, brc_simulation_reaction(c.simulation, right, force));
     assert_done(&c, brc_simulation_reaction(c.simulation, left, back));
     const int64_t n = c.domain->n_elements;
-    bool *imposed = calloc((size_t)n, sizeof *imposed);
+    bool *prescribed = calloc((size_t)n, sizeof *prescribed);
     double *u = calloc((size_t)(3 * n), sizeof *u), left_over, first_left_over;
     for (int k = 0; k < 2; ++k)
         for (int64_t m = 0; m < c.domain->sets[k ? left : right].n_members; ++m) {
             const int32_t e = c.domain->sets[k ? left : right].members[m];
-            imposed[e] = true;
+            prescribed[e] = true;
             u[3 * e] = k ? 0 : 1e-6;
         }
-    const double residual = free_residual(&c, imposed, &left_over);
+    const double residual = free_residual(&c, prescribed, &left_over);
     /* bond forces are opposite, so the reactions differ by exactly what is left on the free elements */
     if (!(fabs(force[0] + back[0] - left_over) < 1e-12 * force[0]))
         fail_msg("reactions %g, %g, left over %g", force[0], back[0], left_over);
     /* which is the solver's tolerance (docs/notebook/theory.md T3): 1e-5 of what the load left unbalanced before
      * anything moved */
     assert_done(&c, brc_simulation_set_state(c.simulation, u, NULL));
-    const double first = free_residual(&c, imposed, &first_left_over);
+    const double first = free_residual(&c, prescribed, &first_left_over);
     if (!(residual < 1e-5 * first)) fail_msg("residual %g of the load", residual / first);
     free(u);
-    free(imposed);
-    /* stress over imposed elongation 1e-6: half a cell at each end is rigid, 1/(1 - 1/8) = 1.14, within some percent */
+    free(prescribed);
+    /* stress over prescribed elongation 1e-6: half a cell at each end is rigid, 1/(1 - 1/8) = 1.14, within some percent
+     */
     const double apparent = force[0] / 1e-6;
     if (!(apparent > 1.05 && apparent < 1.25)) fail_msg("apparent E %g", apparent);
     close_case(&c);

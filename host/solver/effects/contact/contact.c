@@ -150,10 +150,7 @@ brc_status brc_contact_enable(brc_simulation *s, const brc_ledger *ledger)
                     brc_current_stage(s)->name, ledger->contact, ledger->elastic, before->name);
 }
 
-int64_t brc_contact_next_look(const brc_simulation *s)
-{
-    return s->contact->due ? 0 : s->contact->quiet;
-}
+BRC_READ(int64_t, brc_contact_next_probe, s->contact->due ? 0 : s->contact->quiet)
 
 brc_status brc_contact_follow(brc_simulation *s)
 {
@@ -164,8 +161,8 @@ brc_status brc_contact_follow(brc_simulation *s)
         c->quiet -= 1;
         return BRC_OK;
     }
-    if (brc_ahead_is_on(s)) return brc_contact_put_off_look(s);
-    BRC_TRY(brc_contact_look(s, &due, &past));
+    if (brc_ahead_is_on(s)) return brc_contact_put_off_probe(s);
+    BRC_TRY(brc_contact_probe(s, &due, &past));
     return due ? search_soon(s) : BRC_OK;
 }
 
@@ -225,7 +222,7 @@ static brc_status load_strikers(brc_simulation *s)
 /* Around breaks the pairs that these may have changed, in sweeps of openings those of the cells that open, else all. */
 static bool all_pairs(const brc_force_request *r)
 {
-    return !r->listed_pairs && (!r->rings || r->rings->whole_force);
+    return !r->listed_pairs && !brc_request_list(r);
 }
 
 /* The step that the evaluation ends; 0: the state is evaluated again. */
@@ -274,15 +271,14 @@ static brc_status beams_broke(brc_simulation *s, bool *out)
 static brc_buffer *touched(const brc_simulation *s)
 {
     brc_rings *rings = brc_cell_breaks_rings(s);
-    return rings ? rings->touched : s->contact->fresh;
+    return rings ? brc_rings_touched(rings) : s->contact->fresh;
 }
 
 brc_status brc_contact_expose(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     if (!s->fracture) return BRC_OK;
-    return BRC_RUN(c->pass.expose, n, {"broken", BRC_BUF(brc_fracture_lost_bonds(s))});
+    return BRC_RUN(c->pass.expose, s->layout->n_rows, {"broken", BRC_BUF(brc_fracture_lost_bonds(s))});
 }
 
 /* What the breaks of this step change of the list. */
@@ -299,7 +295,7 @@ brc_status brc_contact_settle(brc_simulation *s)
     bool due, past;
     if (!c) return BRC_OK;
     BRC_TRY(brc_contact_pose(s));
-    BRC_TRY(brc_contact_look(s, &due, &past));
+    BRC_TRY(brc_contact_probe(s, &due, &past));
     return past || c->always_whole ? brc_contact_search_more(s, touched(s)) : BRC_OK;
 }
 
@@ -412,7 +408,7 @@ static double fastest_striker(const brc_simulation *s)
         for (int64_t e = 0; e < d->n_elements; ++e) {
             const double size = brc_has_spheres(s) ? 2 * d->radius[e] : cbrt(d->volume[e]),
                          share = brc_contact_law_of(s, s->material_of_element[e], striker->material)[5];
-            const double own = d->volume[e] * s->elastic[s->material_of_element[e]].density;
+            const double own = brc_mass_of_element(s, e);
             stiffness = fmax(stiffness, stiffest(s, e, striker->material) / (size * size));
             damping = fmax(damping, share * share * own * mass / ((own + mass) * size * size));
         }

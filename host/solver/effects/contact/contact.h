@@ -20,12 +20,12 @@ brc_status brc_contact_restart(brc_simulation *s);
 /* The forces of the start of a stage are there, with this ledger: BRC_BAD_INPUT if the static stage before it has
  * pressed surfaces into each other; warned of if they overlap as the run begins. */
 brc_status brc_contact_enable(brc_simulation *s, const brc_ledger *ledger);
-/* Steps until the next look at how far things moved ... */
-int64_t brc_contact_next_look(const brc_simulation *s);
-/* ... and until the first that cannot be put off to the end of a stretch of steps (../fracture/ahead.h), as the looks
+/* Steps until the next probe of how far things moved ... */
+int64_t brc_contact_next_probe(const brc_simulation *s);
+/* ... and until the first that cannot be put off to the end of a stretch of steps (../fracture/ahead.h), as the probes
  * before it found something; INT64_MAX without contact. */
 int64_t brc_contact_quiet_steps(const brc_simulation *s);
-/* A stretch, in which looks are put down on the device; *stands: each would have found nothing to do. */
+/* A stretch, in which probes are put down on the device; *stands: each would have found nothing to do. */
 void brc_contact_begin_stretch(brc_simulation *s);
 brc_status brc_contact_end_stretch(brc_simulation *s, bool *stands);
 /* Elements moved by a step: look again where they moved far enough. */

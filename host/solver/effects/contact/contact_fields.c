@@ -4,75 +4,25 @@
 
 /* ---- what is known from the start ---- */
 
-static bool contact(const brc_wants *w)
-{
-    return w->scene->has_contact;
-}
-static bool detaching(const brc_wants *w)
-{
-    return brc_wants_deforming(w) && w->loose;
-}
-
-static int64_t each_piece(const brc_wants *w)
-{
-    return w->pieces ? w->pieces->n : 0;
-}
-static int64_t each_solid(const brc_wants *w)
-{
-    return w->layout->n_rows + each_piece(w);
-}
-static int64_t each_shape(const brc_wants *w)
-{
-    return w->domain->n_elements + each_piece(w);
-}
-static int64_t each_shape_end(const brc_wants *w)
-{
-    return each_shape(w) + 1;
-}
-static int64_t each_law(const brc_wants *w)
-{
-    return (int64_t)w->scene->n_materials * w->scene->n_materials;
-}
+BRC_WANTED(contact, w->scene->has_contact)
+BRC_WANTED(detaching, brc_wants_deforming(w) && w->loose)
+BRC_COUNTED(each_piece, w->pieces ? w->pieces->n : 0)
+BRC_COUNTED(each_solid, w->layout->n_rows + each_piece(w))
+BRC_COUNTED(each_shape, w->domain->n_elements + each_piece(w))
+BRC_COUNTED(each_shape_end, each_shape(w) + 1)
+BRC_COUNTED(each_law, (int64_t)w->scene->n_materials * w->scene->n_materials)
 
 /* Polyhedra of cells, of which a face is a plane with its place in the list of loops, and of pieces. By Euler's formula
  * the loops of V corners and F faces have 2 (V + F - 2) numbers. */
-static int64_t cell_corners(const brc_wants *w)
-{
-    return brc_wants_spheres(w) ? 0 : w->domain->vertex_start[w->domain->n_elements];
-}
-static int64_t cell_faces(const brc_wants *w)
-{
-    return brc_wants_spheres(w) ? 0 : w->domain->n_half_edges + w->domain->n_free_faces;
-}
-static int64_t cell_loops(const brc_wants *w)
-{
-    return brc_wants_spheres(w) ? 0 : 2 * (cell_corners(w) + cell_faces(w) - 2 * w->domain->n_elements);
-}
-static int64_t each_corner(const brc_wants *w)
-{
-    return cell_corners(w) + (each_piece(w) ? w->pieces->corner_start[w->pieces->n] : 0);
-}
-static int64_t each_face(const brc_wants *w)
-{
-    return cell_faces(w) + (each_piece(w) ? w->pieces->face_start[w->pieces->n] : 0);
-}
-static int64_t each_face_end(const brc_wants *w)
-{
-    return each_face(w) + 1;
-}
-static int64_t each_loop(const brc_wants *w)
-{
-    return cell_loops(w) + (each_piece(w) ? w->pieces->loop_start[w->pieces->face_start[w->pieces->n]] : 0);
-}
-
-static int64_t each_drift(const brc_wants *w)
-{
-    return brc_blocks(w->layout->n_rows, BRC_CONTACT_BLOCK);
-}
-static int64_t each_survey(const brc_wants *w)
-{
-    return each_drift(w) + each_piece(w);
-}
+BRC_COUNTED(cell_corners, brc_wants_spheres(w) ? 0 : w->domain->vertex_start[w->domain->n_elements])
+BRC_COUNTED(cell_faces, brc_wants_spheres(w) ? 0 : w->domain->n_half_edges + w->domain->n_free_faces)
+BRC_COUNTED(cell_loops, brc_wants_spheres(w) ? 0 : 2 * (cell_corners(w) + cell_faces(w) - 2 * w->domain->n_elements))
+BRC_COUNTED(each_corner, cell_corners(w) + (each_piece(w) ? w->pieces->corner_start[w->pieces->n] : 0))
+BRC_COUNTED(each_face, cell_faces(w) + (each_piece(w) ? w->pieces->face_start[w->pieces->n] : 0))
+BRC_COUNTED(each_face_end, each_face(w) + 1)
+BRC_COUNTED(each_loop, cell_loops(w) + (each_piece(w) ? w->pieces->loop_start[w->pieces->face_start[w->pieces->n]] : 0))
+BRC_COUNTED(each_drift, brc_blocks(w->layout->n_rows, BRC_CONTACT_BLOCK))
+BRC_COUNTED(each_survey, each_drift(w) + each_piece(w))
 /* Blocks of the largest scan there is: of rows, of the digits of all rows, or of the pairs. */
 static int64_t each_sum(const brc_wants *w)
 {
@@ -82,62 +32,49 @@ static int64_t each_sum(const brc_wants *w)
 
 #define AT(member) BRC_FIELD_AT(brc_contact_state, member)
 static const brc_field_row rows[] = {
-    {"id", each_solid, 1, BRC_FIELD_INT, NULL, AT(id), "ids of elements", "-", BRC_NOT_KEPT},
-    {"body", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(body), "bodies of elements", "-", BRC_NOT_KEPT},
-    {"material", each_solid, 1, BRC_FIELD_INT, NULL, AT(material), "materials of elements", "-", BRC_NOT_KEPT},
-    {"mass", each_solid, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of elements", "kg", BRC_NOT_KEPT},
+    BRC_FIELD(id, each_solid, 1, INT, NULL, "ids of elements", "-"),
+    BRC_FIELD(body, brc_each_row, 1, INT, NULL, "bodies of elements", "-"),
+    BRC_FIELD(material, each_solid, 1, INT, NULL, "materials of elements", "-"),
+    BRC_FIELD(mass, each_solid, 1, STATE, NULL, "masses of elements", "kg"),
     {"size", each_solid, 1, BRC_FIELD_STATE, NULL, AT(size_of), "sizes of elements", "m", BRC_NOT_KEPT},
-    {"bounding_radius", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(bounding_radius), "radii of elements", "m",
-     BRC_NOT_KEPT},
-    {"place", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(place), "places of elements", "m", BRC_NOT_KEPT},
-    {"exposed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(exposed), "exposed elements", "-",
-     BRC_KEPT("contact.exposed", BRC_KEEP_ALL)},
-    {"original", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(original), "bonds at the start", "-", BRC_NOT_KEPT},
-    {"law", each_law, BRC_CONTACT_LAW, BRC_FIELD_STATE, NULL, AT(law), "laws of contact", "-", BRC_NOT_KEPT},
-    {"stored", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(stored), "energy of contact", "J",
-     BRC_KEPT("contact.stored", BRC_KEEP_ALL)},
-    {"lost_friction", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost_friction), "energy lost to friction", "J",
-     BRC_KEPT("contact.friction", BRC_KEEP_ALL)},
-    {"lost_impact", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost_impact), "energy lost to damping of contact", "J",
-     BRC_KEPT("contact.impact", BRC_KEEP_ALL)},
-    {"corner", each_corner, 3, BRC_FIELD_STATE, NULL, AT(corner), "polyhedra", "m", BRC_NOT_KEPT},
-    {"plane", each_face, 4, BRC_FIELD_STATE, NULL, AT(plane), "polyhedra", "-, m", BRC_NOT_KEPT},
-    {"radius", each_shape, 1, BRC_FIELD_STATE, NULL, AT(radius), "polyhedra", "m", BRC_NOT_KEPT},
-    {"corner_start", each_shape_end, 1, BRC_FIELD_INT, NULL, AT(corner_start), "polyhedra", "-", BRC_NOT_KEPT},
-    {"face_start", each_shape_end, 1, BRC_FIELD_INT, NULL, AT(face_start), "polyhedra", "-", BRC_NOT_KEPT},
-    {"loop_start", each_face_end, 1, BRC_FIELD_INT, NULL, AT(loop_start), "polyhedra", "-", BRC_NOT_KEPT},
-    {"loop", each_loop, 1, BRC_FIELD_INT, NULL, AT(loop), "polyhedra", "-", BRC_NOT_KEPT},
-    {"piece_striker", each_piece, 1, BRC_FIELD_INT, NULL, AT(piece_striker), "pieces of strikers", "-", BRC_NOT_KEPT},
-    {"piece_kind", each_piece, 1, BRC_FIELD_INT, NULL, AT(piece_kind), "pieces of strikers", "-", BRC_NOT_KEPT},
-    {"piece_radius", each_piece, 1, BRC_FIELD_STATE, NULL, AT(piece_radius), "pieces of strikers", "m", BRC_NOT_KEPT},
-    {"piece_own", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece_own), "pieces of strikers", "m", BRC_NOT_KEPT},
-    {"piece", each_piece, 4, BRC_FIELD_STATE, NULL, AT(piece), "pieces of strikers", "m",
-     BRC_KEPT("contact.pieces", BRC_KEEP_ALL)},
-    {"rigid", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(rigid), "rigid cells", "-",
-     BRC_KEPT("contact.rigid", BRC_KEEP_ALL)},
-    {"loaded", brc_each_row, 1, BRC_FIELD_INT, detaching, AT(loaded), "cells with loaded faces", "-", BRC_NOT_KEPT},
-    {"inertia", brc_each_row, 6, BRC_FIELD_STATE, detaching, AT(inertia), "inertia of cells", "kg m^2", BRC_NOT_KEPT},
-    {"turned", brc_each_row, 4, BRC_FIELD_STATE, detaching, AT(turned), "orientations of cells", "-",
-     BRC_KEPT("contact.turned", BRC_KEEP_ALL)},
-    {"momentum", brc_each_row, 3, BRC_FIELD_STATE, detaching, AT(momentum), "angular momenta of cells", "kg m^2/s",
-     BRC_KEPT("contact.momentum", BRC_KEEP_ALL)},
-    {"torque", brc_each_row, 3, BRC_FIELD_STATE, detaching, AT(torque), "torques on cells", "N m",
-     BRC_KEPT("contact.torque", BRC_KEEP_ALL)},
-    {"way", brc_each_row, 1, BRC_FIELD_STATE, detaching, AT(way), "turning of cells", "m",
-     BRC_KEPT("contact.way", BRC_KEEP_ALL)},
-    {"built", brc_each_row, 4, BRC_FIELD_STATE, NULL, AT(built), "places of the last search", "m",
-     BRC_KEPT("contact.built", BRC_KEEP_ALL)},
-    {"posed", brc_each_row, 9, BRC_FIELD_STATE, brc_wants_cells, AT(posed), "poses of the last search", "-",
-     BRC_KEPT("contact.posed", BRC_KEEP_ALL)},
-    {"clear", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(clear), "ways to pieces of strikers", "m", BRC_NOT_KEPT},
-    {"moved", each_survey, BRC_CONTACT_MOVED, BRC_FIELD_STATE, NULL, AT(moved), "moves since the last search", "-",
-     BRC_NOT_KEPT},
+    BRC_FIELD(bounding_radius, brc_each_row, 1, STATE, NULL, "radii of elements", "m"),
+    BRC_FIELD(place, brc_each_row, 3, STATE, NULL, "places of elements", "m"),
+    BRC_KEPT_FIELD(exposed, brc_each_row, 1, INT, NULL, "exposed elements", "-", "contact.exposed"),
+    BRC_FIELD(original, brc_each_entry, 1, INT, NULL, "bonds at the start", "-"),
+    BRC_FIELD(law, each_law, BRC_CONTACT_LAW, STATE, NULL, "laws of contact", "-"),
+    BRC_KEPT_FIELD(stored, brc_each_row, 1, STATE, NULL, "energy of contact", "J", "contact.stored"),
+    BRC_KEPT_FIELD(lost_friction, brc_each_row, 1, STATE, NULL, "energy lost to friction", "J", "contact.friction"),
+    BRC_KEPT_FIELD(lost_impact, brc_each_row, 1, STATE, NULL, "energy lost to damping of contact", "J",
+                   "contact.impact"),
+    BRC_FIELD(corner, each_corner, 3, STATE, NULL, "polyhedra", "m"),
+    BRC_FIELD(plane, each_face, 4, STATE, NULL, "polyhedra", "-, m"),
+    BRC_FIELD(radius, each_shape, 1, STATE, NULL, "polyhedra", "m"),
+    BRC_FIELD(corner_start, each_shape_end, 1, INT, NULL, "polyhedra", "-"),
+    BRC_FIELD(face_start, each_shape_end, 1, INT, NULL, "polyhedra", "-"),
+    BRC_FIELD(loop_start, each_face_end, 1, INT, NULL, "polyhedra", "-"),
+    BRC_FIELD(loop, each_loop, 1, INT, NULL, "polyhedra", "-"),
+    BRC_FIELD(piece_striker, each_piece, 1, INT, NULL, "pieces of strikers", "-"),
+    BRC_FIELD(piece_kind, each_piece, 1, INT, NULL, "pieces of strikers", "-"),
+    BRC_FIELD(piece_radius, each_piece, 1, STATE, NULL, "pieces of strikers", "m"),
+    BRC_FIELD(piece_own, each_piece, 4, STATE, NULL, "pieces of strikers", "m"),
+    BRC_KEPT_FIELD(piece, each_piece, 4, STATE, NULL, "pieces of strikers", "m", "contact.pieces"),
+    BRC_KEPT_FIELD(rigid, brc_each_row, 1, INT, NULL, "rigid cells", "-", "contact.rigid"),
+    BRC_FIELD(loaded, brc_each_row, 1, INT, detaching, "cells with loaded faces", "-"),
+    BRC_FIELD(inertia, brc_each_row, 6, STATE, detaching, "inertia of cells", "kg m^2"),
+    BRC_KEPT_FIELD(turned, brc_each_row, 4, STATE, detaching, "orientations of cells", "-", "contact.turned"),
+    BRC_KEPT_FIELD(momentum, brc_each_row, 3, STATE, detaching, "angular momenta of cells", "kg m^2/s",
+                   "contact.momentum"),
+    BRC_KEPT_FIELD(torque, brc_each_row, 3, STATE, detaching, "torques on cells", "N m", "contact.torque"),
+    BRC_KEPT_FIELD(way, brc_each_row, 1, STATE, detaching, "turning of cells", "m", "contact.way"),
+    BRC_KEPT_FIELD(built, brc_each_row, 4, STATE, NULL, "places of the last search", "m", "contact.built"),
+    BRC_KEPT_FIELD(posed, brc_each_row, 9, STATE, brc_wants_cells, "poses of the last search", "-", "contact.posed"),
+    BRC_FIELD(clear, brc_each_row, 1, STATE, NULL, "ways to pieces of strikers", "m"),
+    BRC_FIELD(moved, each_survey, BRC_CONTACT_MOVED, STATE, NULL, "moves since the last search", "-"),
     {"part", each_drift, BRC_CONTACT_PART, BRC_FIELD_STATE, NULL, AT(drift_part), "moves since the last search", "-",
      BRC_NOT_KEPT},
-    {"drift", brc_each_once, BRC_CONTACT_DRIFT, BRC_FIELD_STATE, NULL, AT(drift), "moves since the last search", "-",
-     BRC_NOT_KEPT},
-    {"seen", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(seen), "exposed elements", "-", BRC_NOT_KEPT},
-    {"fresh", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(fresh), "exposed elements", "-", BRC_NOT_KEPT},
+    BRC_FIELD(drift, brc_each_once, BRC_CONTACT_DRIFT, STATE, NULL, "moves since the last search", "-"),
+    BRC_FIELD(seen, brc_each_row, 1, INT, NULL, "exposed elements", "-"),
+    BRC_FIELD(fresh, brc_each_row, 1, INT, NULL, "exposed elements", "-"),
 };
 BRC_FIELD_TABLE(brc_contact_fields, "contact", BRC_LIFE_RUN, contact, rows);
 static const brc_field_row sum_rows[] = {
@@ -146,49 +83,31 @@ BRC_FIELD_TABLE(brc_contact_sum_fields, "running sums of contact", BRC_LIFE_RUN,
 
 /* ---- what the search needs for exposed elements ---- */
 
-static int64_t each_exposed(const brc_wants *w)
-{
-    return w->exposed_room;
-}
-static int64_t each_exposed_end(const brc_wants *w)
-{
-    return w->exposed_room + 1;
-}
-static int64_t digits(const brc_wants *w)
-{
-    return BRC_SORT_BINS * brc_scan_blocks(w->exposed_room);
-}
-static int64_t each_digit_end(const brc_wants *w)
-{
-    return digits(w) + 1;
-}
-static int64_t each_count(const brc_wants *w)
-{
-    return w->exposed_room > digits(w) ? w->exposed_room : digits(w);
-}
-static int64_t each_bucket(const brc_wants *w)
-{
-    return w->bucket_room;
-}
+BRC_COUNTED(each_exposed, w->exposed_room)
+BRC_COUNTED(each_exposed_end, w->exposed_room + 1)
+BRC_COUNTED(digits, BRC_SORT_BINS *brc_scan_blocks(w->exposed_room))
+BRC_COUNTED(each_digit_end, digits(w) + 1)
+BRC_COUNTED(each_count, w->exposed_room > digits(w) ? w->exposed_room : digits(w))
+BRC_COUNTED(each_bucket, w->bucket_room)
 
 static const brc_field_row grid_rows[] = {
-    {"key", each_exposed, 1, BRC_FIELD_INT, NULL, AT(key), "grid of contact", "-", BRC_NOT_KEPT},
+    BRC_FIELD(key, each_exposed, 1, INT, NULL, "grid of contact", "-"),
     {"key_out", each_exposed, 1, BRC_FIELD_INT, NULL, AT(key) + sizeof(brc_buffer *), "grid of contact", "-",
      BRC_NOT_KEPT},
-    {"row", each_exposed, 1, BRC_FIELD_INT, NULL, AT(row), "grid of contact", "-", BRC_NOT_KEPT},
+    BRC_FIELD(row, each_exposed, 1, INT, NULL, "grid of contact", "-"),
     {"row_out", each_exposed, 1, BRC_FIELD_INT, NULL, AT(row) + sizeof(brc_buffer *), "grid of contact", "-",
      BRC_NOT_KEPT},
-    {"count", each_count, 1, BRC_FIELD_INT, NULL, AT(count), "grid of contact", "-", BRC_NOT_KEPT},
-    {"digits", each_digit_end, 1, BRC_FIELD_INT, NULL, AT(digits), "grid of contact", "-", BRC_NOT_KEPT},
-    {"owned", each_exposed, 1, BRC_FIELD_INT, NULL, AT(owned), "pairs of elements", "-", BRC_NOT_KEPT},
-    {"pair_start", each_exposed_end, 1, BRC_FIELD_INT, NULL, AT(pair_start), "pairs of elements", "-", BRC_NOT_KEPT},
-    {"again", each_exposed, 1, BRC_FIELD_INT, NULL, AT(again), "pairs of elements", "-", BRC_NOT_KEPT},
-    {"redo", each_exposed, 1, BRC_FIELD_INT, NULL, AT(redo), "pairs of elements", "-", BRC_NOT_KEPT},
+    BRC_FIELD(count, each_count, 1, INT, NULL, "grid of contact", "-"),
+    BRC_FIELD(digits, each_digit_end, 1, INT, NULL, "grid of contact", "-"),
+    BRC_FIELD(owned, each_exposed, 1, INT, NULL, "pairs of elements", "-"),
+    BRC_FIELD(pair_start, each_exposed_end, 1, INT, NULL, "pairs of elements", "-"),
+    BRC_FIELD(again, each_exposed, 1, INT, NULL, "pairs of elements", "-"),
+    BRC_FIELD(redo, each_exposed, 1, INT, NULL, "pairs of elements", "-"),
 };
 BRC_FIELD_TABLE(brc_contact_grid_fields, "grid of contact", BRC_LIFE_SEARCH, contact, grid_rows);
 static const brc_field_row bucket_rows[] = {
-    {"first", each_bucket, 1, BRC_FIELD_INT, NULL, AT(first), "grid of contact", "-", BRC_NOT_KEPT},
-    {"last", each_bucket, 1, BRC_FIELD_INT, NULL, AT(last), "grid of contact", "-", BRC_NOT_KEPT},
+    BRC_FIELD(first, each_bucket, 1, INT, NULL, "grid of contact", "-"),
+    BRC_FIELD(last, each_bucket, 1, INT, NULL, "grid of contact", "-"),
 };
 BRC_FIELD_TABLE(brc_contact_bucket_fields, "cells of the grid of contact", BRC_LIFE_SEARCH, contact, bucket_rows);
 
@@ -209,10 +128,7 @@ BRC_FIELD_TABLE(brc_contact_old_listed_fields, "list of exposed elements before"
 
 /* ---- what is near what: not known before ---- */
 
-static int64_t each_result(const brc_wants *w)
-{
-    return w->n_listed * (BRC_CONTACT_RESULT + 2 * (brc_wants_deforming(w) ? 9 : 3));
-}
+BRC_COUNTED(each_result, w->n_listed *(BRC_CONTACT_RESULT + 2 * (brc_wants_deforming(w) ? 9 : 3)))
 
 static const brc_field_row entry_rows[] = {
     {"entry", brc_each_listed, 1, BRC_FIELD_INT, NULL, OF_LIST(entry), "pairs of elements", "-", BRC_NOT_KEPT},
@@ -226,23 +142,22 @@ static const brc_field_row pair_rows[] = {
 };
 BRC_FIELD_TABLE(brc_contact_pair_fields, "pairs", BRC_LIFE_GROWS, contact, pair_rows);
 static const brc_field_row result_rows[] = {
-    {"touch", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(touch), "pairs that touch", "-", BRC_NOT_KEPT},
-    {"result", each_result, 1, BRC_FIELD_STATE, NULL, AT(result), "forces of pairs", "-", BRC_NOT_KEPT},
+    BRC_FIELD(touch, brc_each_listed, 1, INT, NULL, "pairs that touch", "-"),
+    BRC_FIELD(result, each_result, 1, STATE, NULL, "forces of pairs", "-"),
 };
 BRC_FIELD_TABLE(brc_contact_result_fields, "forces of pairs", BRC_LIFE_GROWS, contact, result_rows);
-static const brc_field_row part_rows[] = {
-    {"part", brc_each_listed, 1, BRC_FIELD_STATE, NULL, AT(part), "forces on strikers", "-", BRC_NOT_KEPT}};
+static const brc_field_row part_rows[] = {BRC_FIELD(part, brc_each_listed, 1, STATE, NULL, "forces on strikers", "-")};
 BRC_FIELD_TABLE(brc_contact_part_fields, "forces on strikers", BRC_LIFE_GROWS, contact, part_rows);
 static const brc_field_row packed_at_rows[] = {
-    {"packed_at", brc_each_listed_end, 1, BRC_FIELD_INT, NULL, AT(packed_at), "pairs that touch", "-", BRC_NOT_KEPT}};
+    BRC_FIELD(packed_at, brc_each_listed_end, 1, INT, NULL, "pairs that touch", "-")};
 BRC_FIELD_TABLE(brc_contact_packed_at_fields, "pairs that go over", BRC_LIFE_GROWS, contact, packed_at_rows);
 static const brc_field_row packed_rows[] = {
-    {"packed", each_result, 1, BRC_FIELD_STATE, NULL, AT(packed), "forces of pairs that touch", "-", BRC_NOT_KEPT}};
+    BRC_FIELD(packed, each_result, 1, STATE, NULL, "forces of pairs that touch", "-")};
 BRC_FIELD_TABLE(brc_contact_packed_fields, "forces of pairs that go over", BRC_LIFE_GROWS, contact, packed_rows);
 static const brc_field_row changed_rows[] = {
-    {"flag", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(flag), "changed pairs", "-", BRC_NOT_KEPT},
-    {"flag_start", brc_each_listed_end, 1, BRC_FIELD_INT, NULL, AT(flag_start), "changed pairs", "-", BRC_NOT_KEPT},
-    {"todo", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(todo), "changed pairs", "-", BRC_NOT_KEPT},
+    BRC_FIELD(flag, brc_each_listed, 1, INT, NULL, "changed pairs", "-"),
+    BRC_FIELD(flag_start, brc_each_listed_end, 1, INT, NULL, "changed pairs", "-"),
+    BRC_FIELD(todo, brc_each_listed, 1, INT, NULL, "changed pairs", "-"),
 };
 BRC_FIELD_TABLE(brc_contact_changed_fields, "changed pairs", BRC_LIFE_GROWS, contact, changed_rows);
 

@@ -65,8 +65,8 @@ struct brc_contact_state {
     brc_buffer *again, *redo; /* of listed elements */
     brc_contact_list now, before;
     int64_t quiet;           /* steps for which nothing can have moved far enough */
-    brc_buffer *most_moved;  /* the largest that the looks of a stretch found (../fracture/ahead.h) */
-    int n_looks, n_trusted;  /* looks of the stretch; how many may be put off */
+    brc_buffer *most_moved;  /* the largest that the probes of a stretch found (../fracture/ahead.h) */
+    int n_probes, n_trusted; /* probes of the stretch; how many may be put off */
     double most_pushed;      /* by these strikers [m/s^2] */
     int64_t searches, lists; /* searches of all; lists that were made, those of breaks too */
     bool due;                /* dlsm: look for pairs as soon as the gradients of this evaluation are there */
@@ -148,11 +148,11 @@ brc_status brc_contact_search_create(brc_simulation *s);
 brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched);
 /* The same by a search of all. */
 brc_status brc_contact_search_more(brc_simulation *s, brc_buffer *touched);
-/* Steps until the next look, from how far and how fast things moved since the list was made; *due: the list is too old,
- * or soon; *past: it no longer holds. */
-brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past);
+/* Steps until the next probe, from how far and how fast things moved since the list was made; *due: the list is too
+ * old, or soon; *past: it no longer holds. */
+brc_status brc_contact_probe(brc_simulation *s, bool *due, bool *past);
 /* The same within a stretch, which asks at its end. */
-brc_status brc_contact_put_off_look(brc_simulation *s);
+brc_status brc_contact_put_off_probe(brc_simulation *s);
 /* Evaluate pairs into c->result, all or those of c->todo; dt: of the step that ended, 0: again. broke: for the breaks
  * of this step. */
 brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool broke);

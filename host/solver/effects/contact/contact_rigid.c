@@ -10,7 +10,7 @@ static brc_status mark_loaded(brc_simulation *s, const brc_load *load, int32_t *
     const brc_domain *d = s->domain;
     const int32_t at =
         brc_load_holds_faces(load) || brc_load_pulls_faces(load) ? brc_domain_find_set(d, load->set) : -1;
-    brc_loaded_face *pulled = NULL;
+    BRC_FREED brc_loaded_face *pulled = NULL;
     int64_t n = 0;
     if (at < 0 || d->sets[at].kind != BRC_SET_FACES) return BRC_OK; /* refused where the stage begins */
     if (brc_load_pulls_faces(load))
@@ -19,23 +19,17 @@ static brc_status mark_loaded(brc_simulation *s, const brc_load *load, int32_t *
         n = d->sets[at].n_members;
     for (int64_t m = 0; m < n; ++m)
         loaded[s->layout->row_of_element[d->free_element[pulled ? pulled[m].face : d->sets[at].members[m]]]] = 1;
-    brc_memory_free(pulled);
     return BRC_OK;
 }
 
 /* Those of the loads of all stages. */
 static brc_status find_loaded(brc_simulation *s)
 {
-    int32_t *loaded = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &loaded, s->layout->n_rows, "elements with loaded faces"));
+    BRC_LOCAL(s->context, s->layout->n_rows, int32_t, loaded, "elements with loaded faces");
     for (int32_t k = 0; k < s->scene->n_stages; ++k)
         for (int32_t l = 0; l < s->scene->stages[k].n_loads; ++l)
-            BRC_TRY_OR(cleanup, mark_loaded(s, s->scene->stages[k].loads + l, loaded));
-    status = brc_upload_int(s->contact->loaded, loaded, s->layout->n_rows);
-cleanup:
-    brc_memory_free(loaded);
-    return status;
+            BRC_TRY(mark_loaded(s, s->scene->stages[k].loads + l, loaded));
+    return brc_upload_int(s->contact->loaded, loaded, s->layout->n_rows);
 }
 
 static brc_status make_passes(brc_simulation *s)
@@ -54,25 +48,19 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const brc_domain *d = s->domain;
-    double *inertia = NULL, *upright = NULL;
-    brc_status status = BRC_OK;
     c->detaches = c->turned != NULL;
     if (!c->detaches) return BRC_OK;
     BRC_TRY(find_loaded(s));
     BRC_TRY(make_passes(s));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &inertia, 6 * d->n_elements, "inertia of cells"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &upright, 4 * d->n_elements, "orientations of cells"));
+    BRC_LOCAL(s->context, 6 * d->n_elements, double, inertia, "inertia of cells");
+    BRC_LOCAL(s->context, 4 * d->n_elements, double, upright, "orientations of cells");
     for (int64_t e = 0; e < d->n_elements; ++e) {
         for (int k = 0; k < 6; ++k)
             inertia[6 * e + k] = d->inertia[6 * e + k] * s->elastic[s->material_of_element[e]].density;
         upright[4 * e] = 1;
     }
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->inertia, inertia, 6, 1));
-    BRC_TRY_OR(cleanup, brc_state_to_rows(s, c->turned, upright, 4, 0));
-cleanup:
-    brc_memory_free(inertia);
-    brc_memory_free(upright);
-    return status;
+    BRC_TRY(brc_state_to_rows(s, c->inertia, inertia, 6, 1));
+    return brc_state_to_rows(s, c->turned, upright, 4, 0);
 }
 
 brc_status brc_contact_detach(brc_simulation *s)
@@ -96,17 +84,13 @@ brc_status brc_contact_list_bonded(brc_simulation *s)
     return brc_rings_without(s, brc_cell_breaks_rings(s), c->rigid, c->bonded);
 }
 
-const brc_ring_list *brc_contact_bonded(const brc_simulation *s)
-{
-    return s->contact ? s->contact->bonded : NULL;
-}
+BRC_READ(const brc_ring_list *, brc_contact_bonded, s->contact ? s->contact->bonded : NULL)
 
 brc_status brc_contact_pose(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     if (!c || !(c->n_rigid > 0)) return BRC_OK;
-    return brc_pass_run(c->pass.pose, n);
+    return brc_pass_run(c->pass.pose, s->layout->n_rows);
 }
 
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra)

@@ -93,14 +93,11 @@ static brc_status enqueue_survey(brc_simulation *s)
 static brc_status read_survey(brc_simulation *s, brc_buffer *moved, int32_t n_pieces, survey *out)
 {
     const int64_t n_blocks = brc_blocks(s->layout->n_rows, BRC_CONTACT_BLOCK), rows = n_blocks + n_pieces;
-    double *value = NULL;
     *out = (survey){.element = {0}};
-    BRC_TRY(BRC_ALLOCATE(s->context, &value, BRC_CONTACT_MOVED * rows, "moves since the last search"));
-    const brc_status status = brc_download(s, moved, brc_precision_state_bytes(brc_device_get_precision(s->device)),
-                                           value, BRC_CONTACT_MOVED * rows);
+    BRC_LOCAL(s->context, BRC_CONTACT_MOVED * rows, double, value, "moves since the last search");
+    const brc_status status = brc_download(s, moved, brc_state_bytes(s), value, BRC_CONTACT_MOVED * rows);
     largest_of(value, 0, n_blocks, out->element);
     largest_of(value, n_blocks, rows, out->piece);
-    brc_memory_free(value);
     return status;
 }
 
@@ -110,13 +107,13 @@ static brc_status take_survey(brc_simulation *s, survey *out)
     return read_survey(s, s->contact->moved, s->contact->n_pieces, out);
 }
 
-/* What a survey says: steps until the next look; due, past as brc_contact_look. pushed: acceleration of strikers. */
+/* What a survey says: steps until the next probe; due, past as brc_contact_probe. pushed: acceleration of strikers. */
 static int64_t judge(const brc_simulation *s, const survey *now, double pushed, bool *due, bool *past)
 {
     const brc_contact_state *c = s->contact;
     const double dt = brc_simulation_time_step(s).value;
-    /* Twice the present speed and acceleration must not use up what is left before the next look: of half the skin, and
-     * of the way to the next piece of a striker. */
+    /* Twice the present speed and acceleration must not use up what is left before the next probe: of half the skin,
+     * and of the way to the next piece of a striker. */
     const double left = 0.5 * c->skin - now->element[0], v = 2 * now->element[1] * dt,
                  a = 2 * sqrt(now->element[2]) * dt * dt;
     const double clear = -now->element[3] - now->piece[0], v_piece = 2 * (now->element[4] + sqrt(now->piece[1])) * dt,
@@ -144,7 +141,7 @@ static void trust(brc_contact_state *c, bool calm)
     c->n_trusted = !calm ? 0 : more < MOST_TRUSTED ? more : MOST_TRUSTED;
 }
 
-brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
+brc_status brc_contact_probe(brc_simulation *s, bool *due, bool *past)
 {
     brc_contact_state *c = s->contact;
     survey now;
@@ -154,7 +151,7 @@ brc_status brc_contact_look(brc_simulation *s, bool *due, bool *past)
     return BRC_OK;
 }
 
-/* ---- looks that are put off (../fracture/ahead.h) ---- */
+/* ---- probes that are put off (../fracture/ahead.h) ---- */
 
 int64_t brc_contact_quiet_steps(const brc_simulation *s)
 {
@@ -165,21 +162,21 @@ int64_t brc_contact_quiet_steps(const brc_simulation *s)
 
 void brc_contact_begin_stretch(brc_simulation *s)
 {
-    s->contact->n_looks = 0;
+    s->contact->n_probes = 0;
     s->contact->most_pushed = 0;
 }
 
 /* What would allow MOST_QUIET steps with the largest of every column allows as many with each. */
-brc_status brc_contact_put_off_look(brc_simulation *s)
+brc_status brc_contact_put_off_probe(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const int64_t bytes = brc_buffer_bytes(c->moved);
     BRC_TRY(enqueue_survey(s));
     if (!c->most_moved) BRC_TRY(brc_buffer_create(s->device, &c->most_moved, bytes, "moves of the looks so far"));
-    if (c->n_looks++ == 0)
+    if (c->n_probes++ == 0)
         BRC_TRY(brc_buffer_copy(c->most_moved, c->moved, bytes));
     else
-        BRC_TRY(brc_pass_run(c->pass.most, bytes / brc_precision_state_bytes(brc_device_get_precision(s->device))));
+        BRC_TRY(brc_pass_run(c->pass.most, bytes / brc_state_bytes(s)));
     c->most_pushed = fmax(c->most_pushed, pushed_now(s));
     c->quiet = MOST_QUIET;
     return BRC_OK;
@@ -191,7 +188,7 @@ brc_status brc_contact_end_stretch(brc_simulation *s, bool *stands)
     survey most;
     bool due, past;
     *stands = true;
-    if (c->n_looks == 0) return BRC_OK;
+    if (c->n_probes == 0) return BRC_OK;
     BRC_TRY(read_survey(s, c->most_moved, c->n_pieces, &most));
     *stands = judge(s, &most, c->most_pushed, &due, &past) == MOST_QUIET && !due;
     trust(c, *stands);
@@ -450,14 +447,8 @@ brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)
     return find_changed(s, touched);
 }
 
-bool brc_contact_is_due(const brc_simulation *s)
-{
-    return s->contact && (s->contact->due || s->contact->always_whole);
-}
-int64_t brc_contact_lists(const brc_simulation *s)
-{
-    return s->contact ? s->contact->lists : 0;
-}
+BRC_READ(bool, brc_contact_is_due, s->contact && (s->contact->due || s->contact->always_whole))
+BRC_READ(int64_t, brc_contact_lists, s->contact ? s->contact->lists : 0)
 brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched)
 {
     return s->contact ? find_changed(s, touched) : BRC_OK;
@@ -474,10 +465,9 @@ brc_status brc_contact_spread(brc_simulation *s, brc_buffer *level, int32_t to)
 static brc_status search(brc_simulation *s, bool carried)
 {
     brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows;
     c->quiet = 0;
     c->searches += 1;
-    BRC_TRY(brc_pass_run(c->pass.extent, n));
+    BRC_TRY(brc_pass_run(c->pass.extent, s->layout->n_rows));
     if (c->n_pieces) BRC_TRY(brc_pass_run(c->pass.pieces, c->n_pieces));
     BRC_TRY(choose_skin(s));
     BRC_TRY(brc_buffer_fill_zero(c->stored)); /* of elements that leave the list too */

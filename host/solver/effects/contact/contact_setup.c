@@ -120,9 +120,8 @@ static brc_status upload_original(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const int64_t entries = layout->n_slots * layout->slice;
-    int32_t *row = NULL;
     brc_status status = BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &row, entries, "bonds at the start"));
+    BRC_LOCAL(s->context, entries, int32_t, row, "bonds at the start");
     for (int32_t k = 0; k < layout->n_slices; ++k)
         for (int64_t at = (int64_t)layout->slot_start[k] * layout->slice;
              at < (int64_t)layout->slot_start[k + 1] * layout->slice; ++at) {
@@ -131,7 +130,6 @@ static brc_status upload_original(brc_simulation *s)
                              : k * layout->slice + (int32_t)(at % layout->slice);
         }
     status = brc_upload_int(s->contact->original, row, entries);
-    brc_memory_free(row);
     return status;
 }
 
@@ -158,7 +156,7 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     BRC_TRY(brc_upload_int(c->material, number, n + np));
     for (int32_t r = 0; r < n; ++r) {
         const int32_t e = layout->element_of_row[r];
-        value[r] = e < 0 ? 1 : d->volume[e] * s->elastic[s->material_of_element[e]].density;
+        value[r] = e < 0 ? 1 : brc_mass_of_element(s, e);
     }
     for (int32_t p = 0; p < np; ++p)
         value[n + p] =
@@ -185,9 +183,7 @@ brc_status brc_contact_setup(brc_simulation *s)
     brc_contact_state *c = s->contact;
     const brc_domain *d = s->domain;
     const int64_t n = s->layout->n_rows;
-    int32_t *number = NULL;
-    double *value = NULL, volume = 0;
-    brc_status status = BRC_OK;
+    double volume = 0;
     for (int k = 0; k < 3; ++k) {
         c->middle[k] = 0.5 * (d->bounds[0][k] + d->bounds[1][k]);
         c->span += 2 * (d->bounds[1][k] - d->bounds[0][k]);
@@ -198,12 +194,8 @@ brc_status brc_contact_setup(brc_simulation *s)
     c->size = cbrt(volume / (double)d->n_elements);
     BRC_TRY(brc_fields_create(s->device, &brc_contact_fields, &s->wants, c));
     BRC_TRY(set_laws(s));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &number, n + c->n_pieces, "elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, 3 * (n + c->n_pieces), "elements"));
-    BRC_TRY_OR(cleanup, upload_rows(s, number, value));
-    BRC_TRY_OR(cleanup, upload_original(s));
-cleanup:
-    brc_memory_free(number);
-    brc_memory_free(value);
-    return status;
+    BRC_LOCAL(s->context, n + c->n_pieces, int32_t, number, "elements");
+    BRC_LOCAL(s->context, 3 * (n + c->n_pieces), double, value, "elements");
+    BRC_TRY(upload_rows(s, number, value));
+    return upload_original(s);
 }

@@ -9,13 +9,10 @@
 static brc_status upload_both(brc_simulation *s, brc_buffer *out, const double *first, int64_t n_first,
                               const double *second, int64_t n_second, const char *what)
 {
-    double *all = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second, what));
+    BRC_LOCAL(s->context, n_first + n_second, double, all, what);
     if (n_first) memcpy(all, first, (size_t)n_first * sizeof *all);
     if (n_second) memcpy(all + n_first, second, (size_t)n_second * sizeof *all);
-    const brc_status status = brc_upload_state(s, out, all, n_first + n_second);
-    brc_memory_free(all);
-    return status;
+    return brc_upload_state(s, out, all, n_first + n_second);
 }
 
 /* Starts [n + 1] of the elements and of the pieces after them; NULL: elements have none. */
@@ -23,15 +20,12 @@ static brc_status upload_starts(brc_simulation *s, brc_buffer *out, const int32_
                                 const int32_t *second, int64_t n_second, const char *what)
 {
     const int32_t before = first ? first[n_first] : 0;
-    int32_t *all = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &all, n_first + n_second + 1, what));
+    BRC_LOCAL(s->context, n_first + n_second + 1, int32_t, all, what);
     for (int64_t k = 0; first && k <= n_first; ++k)
         all[k] = first[k];
     for (int64_t k = 0; k <= n_second; ++k)
         all[n_first + k] = before + (second ? second[k] : 0);
-    const brc_status status = brc_upload_int(out, all, n_first + n_second + 1);
-    brc_memory_free(all);
-    return status;
+    return brc_upload_int(out, all, n_first + n_second + 1);
 }
 
 static brc_status upload_shapes(brc_simulation *s, const brc_convex *cells, const brc_convex *pieces)
@@ -43,27 +37,20 @@ static brc_status upload_shapes(brc_simulation *s, const brc_convex *cells, cons
                   loops = cells->n ? cells->loop_start[faces] : 0;
     const int64_t more_corners = np ? pieces->corner_start[np] : 0, more_faces = np ? pieces->face_start[np] : 0,
                   more_loops = np ? pieces->loop_start[more_faces] : 0;
-    int32_t *loop = NULL;
-    double *nothing = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, upload_both(s, c->corner, cells->corner, 3 * corners, pieces->corner, 3 * more_corners, what));
-    BRC_TRY_OR(cleanup, upload_both(s, c->plane, cells->plane, 4 * faces, pieces->plane, 4 * more_faces, what));
-    if (!cells->n) BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &nothing, n, what));
-    BRC_TRY_OR(cleanup, upload_both(s, c->radius, cells->n ? cells->radius : nothing, n, pieces->radius, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, c->corner_start, cells->n ? cells->corner_start : NULL, n,
-                                      pieces->corner_start, np, what));
-    BRC_TRY_OR(cleanup,
-               upload_starts(s, c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
-    BRC_TRY_OR(cleanup, upload_starts(s, c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start,
-                                      more_faces, what));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &loop, loops + more_loops, what));
+    BRC_FREED double *nothing = NULL;
+    BRC_TRY(upload_both(s, c->corner, cells->corner, 3 * corners, pieces->corner, 3 * more_corners, what));
+    BRC_TRY(upload_both(s, c->plane, cells->plane, 4 * faces, pieces->plane, 4 * more_faces, what));
+    if (!cells->n) BRC_TRY(BRC_ALLOCATE(s->context, &nothing, n, what));
+    BRC_TRY(upload_both(s, c->radius, cells->n ? cells->radius : nothing, n, pieces->radius, np, what));
+    BRC_TRY(
+        upload_starts(s, c->corner_start, cells->n ? cells->corner_start : NULL, n, pieces->corner_start, np, what));
+    BRC_TRY(upload_starts(s, c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
+    BRC_TRY(upload_starts(s, c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start, more_faces,
+                          what));
+    BRC_LOCAL(s->context, loops + more_loops, int32_t, loop, what);
     if (loops) memcpy(loop, cells->loop, (size_t)loops * sizeof *loop);
     if (more_loops) memcpy(loop + loops, pieces->loop, (size_t)more_loops * sizeof *loop);
-    BRC_TRY_OR(cleanup, brc_upload_int(c->loop, loop, loops + more_loops));
-cleanup:
-    brc_memory_free(loop);
-    brc_memory_free(nothing);
-    return status;
+    return brc_upload_int(c->loop, loop, loops + more_loops);
 }
 
 /* Of each piece a ball that holds it, about the middle of its corners; of a plane its normal and height. */
@@ -95,13 +82,10 @@ static brc_status upload_pieces(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const int32_t n = c->n_pieces;
-    int32_t *striker = NULL, *kind = NULL;
-    double *own = NULL, *radius = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &striker, n, "pieces of strikers"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &kind, n, "pieces of strikers"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &radius, n, "pieces of strikers"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &own, 4 * (int64_t)n, "pieces of strikers"));
+    BRC_LOCAL(s->context, n, int32_t, striker, "pieces of strikers");
+    BRC_LOCAL(s->context, n, int32_t, kind, "pieces of strikers");
+    BRC_LOCAL(s->context, n, double, radius, "pieces of strikers");
+    BRC_LOCAL(s->context, 4 * (int64_t)n, double, own, "pieces of strikers");
     for (int32_t p = 0; p < n; ++p) {
         const brc_striker_piece piece = brc_striker_piece_of(s, p);
         outline(s->wants.pieces, p, piece, own + 4 * (int64_t)p);
@@ -109,28 +93,20 @@ static brc_status upload_pieces(brc_simulation *s)
         kind[p] = (int32_t)piece.kind;
         radius[p] = piece.radius;
     }
-    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_striker, striker, n));
-    BRC_TRY_OR(cleanup, brc_upload_int(c->piece_kind, kind, n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_own, own, 4 * (int64_t)n));
-    if (n) BRC_TRY_OR(cleanup, brc_upload_state(s, c->piece_radius, radius, n));
-cleanup:
-    brc_memory_free(striker);
-    brc_memory_free(kind);
-    brc_memory_free(own);
-    brc_memory_free(radius);
-    return status;
+    BRC_TRY(brc_upload_int(c->piece_striker, striker, n));
+    BRC_TRY(brc_upload_int(c->piece_kind, kind, n));
+    BRC_TRY(brc_upload_state(s, c->piece_own, own, 4 * (int64_t)n));
+    if (n) BRC_TRY(brc_upload_state(s, c->piece_radius, radius, n));
+    return BRC_OK;
 }
 
 brc_status brc_contact_shapes(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    brc_convex cells = {0}, none = {0};
-    brc_status status = BRC_OK;
-    if (!brc_has_spheres(s)) BRC_TRY_OR(cleanup, brc_convex_of_domain(s->context, s->domain, 0, &cells));
-    if (cells.n && c->n_pieces) BRC_TRY_OR(cleanup, brc_strikers_check_edges(s, &cells));
-    BRC_TRY_OR(cleanup, upload_shapes(s, &cells, c->n_pieces ? s->wants.pieces : &none));
-    BRC_TRY_OR(cleanup, upload_pieces(s));
-cleanup:
-    brc_convex_free(&cells);
-    return status;
+    BRC_ENDS_WITH(brc_convex_free) brc_convex cells = {0};
+    brc_convex none = {0};
+    if (!brc_has_spheres(s)) BRC_TRY(brc_convex_of_domain(s->context, s->domain, 0, &cells));
+    if (cells.n && c->n_pieces) BRC_TRY(brc_strikers_check_edges(s, &cells));
+    BRC_TRY(upload_shapes(s, &cells, c->n_pieces ? s->wants.pieces : &none));
+    return upload_pieces(s);
 }

@@ -17,13 +17,10 @@ brc_status brc_contact_share_list(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const int32_t n = c->now.n_listed;
-    int32_t *rows = NULL;
     if (!brc_device_is_shared(s->device)) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, n, "elements of contact"));
-    brc_status status = brc_buffer_read(c->now.list, 0, rows, n * (int64_t)sizeof *rows);
-    if (status == BRC_OK) status = brc_rows_among_make(s->device, n, rows, &c->listed);
-    brc_memory_free(rows);
-    return status;
+    BRC_LOCAL(s->context, n, int32_t, rows, "elements of contact");
+    BRC_TRY(brc_buffer_read(c->now.list, 0, rows, n * (int64_t)sizeof *rows));
+    return brc_rows_among_make(s->device, n, rows, &c->listed);
 }
 
 void brc_contact_share_free(brc_contact_state *c)
@@ -64,17 +61,14 @@ static bool is_own(const brc_simulation *s, const struct brc_contact_share *h, i
 static brc_status find_crossing(brc_simulation *s, struct brc_contact_share *h)
 {
     const int32_t n = s->layout->n_rows;
-    int32_t *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, 2 * (int64_t)h->n_pairs, "pairs"));
+    BRC_LOCAL(s->context, 2 * (int64_t)h->n_pairs, int32_t, rows, "pairs");
     for (int64_t p = 0; p < h->n_pairs; ++p) {
         const int32_t i = h->ends[2 * p], j = h->ends[2 * p + 1];
         const bool crosses = j >= n || !brc_device_rows_together(s->device, i, j);
         rows[2 * p] = crosses ? i : -1;
         rows[2 * p + 1] = crosses && j < n ? j : -1;
     }
-    const brc_status status = brc_rows_among_make(s->device, 2 * h->n_pairs, rows, &h->crossing);
-    brc_memory_free(rows);
-    return status;
+    return brc_rows_among_make(s->device, 2 * h->n_pairs, rows, &h->crossing);
 }
 
 brc_status brc_contact_share_pairs(brc_simulation *s)
@@ -119,18 +113,12 @@ brc_status brc_contact_bring_pairs(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const struct brc_contact_share *h = c->share;
-    const int64_t state = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    int32_t *row = NULL;
+    const int64_t state = brc_state_bytes(s);
     if (!brc_device_is_shared(s->device) || c->now.n_pairs == 0) return BRC_OK;
-    brc_status status = BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &row, h->n_pairs, "pairs"));
+    BRC_LOCAL(s->context, h->n_pairs, int32_t, row, "pairs");
     for (int64_t p = 0; p < h->n_pairs; ++p)
         row[p] = h->ends[2 * p];
-    BRC_TRY_OR(cleanup, brc_buffer_bring_items(c->touch, 4, h->n_pairs, row));
-    BRC_TRY_OR(cleanup,
-               brc_buffer_bring_items(c->result, (BRC_CONTACT_RESULT + 2 * c->width) * state, h->n_pairs, row));
-    status = brc_buffer_bring_items(c->now.history, BRC_CONTACT_HISTORY * state, h->n_pairs, row);
-cleanup:
-    brc_memory_free(row);
-    return status;
+    BRC_TRY(brc_buffer_bring_items(c->touch, 4, h->n_pairs, row));
+    BRC_TRY(brc_buffer_bring_items(c->result, (BRC_CONTACT_RESULT + 2 * c->width) * state, h->n_pairs, row));
+    return brc_buffer_bring_items(c->now.history, BRC_CONTACT_HISTORY * state, h->n_pairs, row);
 }

@@ -6,35 +6,13 @@
 
 extern const brc_field_table brc_contact_old_slot_fields, brc_contact_old_listed_fields;
 
-static bool in(const brc_wants *w)
-{
-    return w->scene->has_contact;
-}
-static brc_status started(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_enable(s, now->ledger);
-}
-static brc_status turn(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_turn(s, now->kick, now->drift, now->extra * now->drift);
-}
-static brc_status press(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_acts(s, now->request) ? brc_contact_forces(s, now->request) : BRC_OK;
-}
-static brc_status energies(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_ledger(s, now->ledger);
-}
-static brc_status store(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_store_state(s, now->store);
-}
-
-static brc_status stretch(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_contact_store_stretch(s, now->store);
-}
+BRC_WANTED(in, w->scene->has_contact)
+BRC_CALLED(started, brc_contact_enable(s, now->ledger))
+BRC_CALLED(turn, brc_contact_turn(s, now->kick, now->drift, now->extra * now->drift))
+BRC_CALLED(press, brc_contact_acts(s, now->request) ? brc_contact_forces(s, now->request) : BRC_OK)
+BRC_CALLED(energies, brc_contact_ledger(s, now->ledger))
+BRC_CALLED(store, brc_contact_store_state(s, now->store))
+BRC_CALLED(stretch, brc_contact_store_stretch(s, now->store))
 static brc_status kicked(brc_simulation *s, const brc_occasion *now)
 {
     brc_contact_state *c = s->contact;
@@ -50,7 +28,7 @@ static bool exposes(const brc_scene *scene) /* any element may come to be pushed
 static const brc_effect_step_bound step_bound = {brc_contact_critical_step, brc_contact_check_step, "auto: contact",
                                                  "auto: power iteration and contact"};
 
-static const brc_effect_looks looks = {brc_contact_next_look, brc_contact_begin_stretch, brc_contact_end_stretch};
+static const brc_effect_probes probes = {brc_contact_next_probe, brc_contact_begin_stretch, brc_contact_end_stretch};
 static void release(brc_simulation *s)
 {
     brc_ahead_free(s);
@@ -90,7 +68,7 @@ const brc_effect brc_contact_effect = {.name = "contact",
                                        .follows_surfaces = true,
                                        .step_bound = &step_bound,
                                        .ahead = &brc_steps_ahead,
-                                       .looks = &looks,
+                                       .probes = &probes,
                                        .quiet_steps = brc_contact_quiet_steps,
                                        .fields = fields,
                                        .create = brc_contact_create,

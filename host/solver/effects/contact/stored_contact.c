@@ -21,11 +21,9 @@ static brc_status find_pairs(brc_simulation *s, pair_of_ids **out)
 {
     const brc_contact_list *l = &s->contact->now;
     const int32_t n_rows = s->layout->n_rows;
-    int32_t *ends = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, out, l->n_pairs, "pairs"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ends, 2 * (int64_t)l->n_pairs, "pairs"));
-    if (l->n_pairs > 0) BRC_TRY_OR(cleanup, brc_buffer_read(l->ends, 0, ends, 8 * (int64_t)l->n_pairs));
+    BRC_TRY(BRC_ALLOCATE(s->context, out, l->n_pairs, "pairs"));
+    BRC_LOCAL(s->context, 2 * (int64_t)l->n_pairs, int32_t, ends, "pairs");
+    if (l->n_pairs > 0) BRC_TRY(brc_buffer_read(l->ends, 0, ends, 8 * (int64_t)l->n_pairs));
     for (int32_t p = 0; p < l->n_pairs; ++p) {
         pair_of_ids *pair = *out + p;
         pair->at = p;
@@ -35,9 +33,7 @@ static brc_status find_pairs(brc_simulation *s, pair_of_ids **out)
         }
     }
     if (l->n_pairs > 0) qsort(*out, (size_t)l->n_pairs, sizeof **out, by_ids);
-cleanup:
-    brc_memory_free(ends);
-    return status;
+    return BRC_OK;
 }
 
 /* The ids that were kept, against those of the list. */
@@ -45,52 +41,42 @@ static brc_status walk_ids(brc_simulation *s, brc_state_store *store, const pair
 {
     const int64_t n_pairs = s->contact->now.n_pairs;
     int64_t n = n_pairs;
-    int32_t *ids = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &ids, 2 * n, "pairs"));
+    BRC_LOCAL(s->context, 2 * n, int32_t, ids, "pairs");
     for (int64_t p = 0; p < n; ++p)
         memcpy(ids + 2 * p, pair[p].id, sizeof pair[p].id);
-    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "contact.pairs", BRC_STORED_INT32, 2, &n, (void **)&ids));
+    BRC_TRY(brc_store_array(s->context, store, "contact.pairs", BRC_STORED_INT32, 2, &n, (void **)&ids));
     int64_t like = 0; /* pairs up to the first that differs */
     while (like < n && like < n_pairs && memcmp(ids + 2 * like, pair[like].id, sizeof pair[like].id) == 0)
         ++like;
     if (n != n_pairs)
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "contact.pairs: the history that was kept is of %lld pairs, and the surfaces near each other "
-                          "are %lld: friction would be lost",
-                          (long long)n, (long long)n_pairs);
-    else if (like < n)
-        status = BRC_FAIL(s->context, BRC_BAD_INPUT,
-                          "contact.pairs: the history that was kept has elements %d and %d in row %lld, where surfaces "
-                          "of %d and %d are near each other: friction would be lost",
-                          (int)ids[2 * like], (int)ids[2 * like + 1], (long long)like, (int)pair[like].id[0],
-                          (int)pair[like].id[1]);
-cleanup:
-    brc_memory_free(ids);
-    return status;
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "contact.pairs: the history that was kept is of %lld pairs, and the surfaces near each other "
+                        "are %lld: friction would be lost",
+                        (long long)n, (long long)n_pairs);
+    if (like < n)
+        return BRC_FAIL(s->context, BRC_BAD_INPUT,
+                        "contact.pairs: the history that was kept has elements %d and %d in row %lld, where surfaces "
+                        "of %d and %d are near each other: friction would be lost",
+                        (int)ids[2 * like], (int)ids[2 * like + 1], (long long)like, (int)pair[like].id[0],
+                        (int)pair[like].id[1]);
+    return BRC_OK;
 }
 
 static brc_status walk_pairs(brc_simulation *s, brc_state_store *store)
 {
     const brc_contact_list *l = &s->contact->now;
-    pair_of_ids *pair = NULL;
-    int32_t *rank = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED pair_of_ids *pair = NULL;
     BRC_TRY(brc_contact_bring_pairs(s));
-    BRC_TRY_OR(cleanup, find_pairs(s, &pair));
-    BRC_TRY_OR(cleanup, walk_ids(s, store, pair));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rank, l->n_pairs, "pairs"));
+    BRC_TRY(find_pairs(s, &pair));
+    BRC_TRY(walk_ids(s, store, pair));
+    BRC_LOCAL(s->context, l->n_pairs, int32_t, rank, "pairs");
     for (int32_t p = 0; p < l->n_pairs; ++p)
         rank[pair[p].at] = p;
-    status = brc_store_fields(
+    return brc_store_fields(
         s, store, &(brc_kept_fields){.table = &brc_contact_pair_fields, .owner = l, .n = l->n_pairs, .id = rank});
-cleanup:
-    brc_memory_free(pair);
-    brc_memory_free(rank);
-    return status;
 }
 
-/* Of dlsm the look at how far surfaces have moved reads the gradients of the step before. */
+/* Of dlsm the probe of how far surfaces have moved reads the gradients of the step before. */
 static brc_status walk_arrays(brc_simulation *s, brc_state_store *store)
 {
     brc_contact_state *c = s->contact;

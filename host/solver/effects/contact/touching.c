@@ -11,18 +11,15 @@ brc_status brc_simulation_touching(brc_simulation *s, brc_touching *out)
                         "the scene has no `interactions: {contact: ...}`, so nothing touches");
     const brc_contact_list *l = &s->contact->now;
     const int64_t stride = BRC_CONTACT_RESULT + 2 * s->contact->width, n = l->n_pairs;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    double *result = NULL, *history = NULL;
-    int32_t *touch = NULL;
-    brc_status status = BRC_OK;
+    const int bytes = brc_state_bytes(s);
     if (n == 0) return BRC_OK;
     BRC_TRY(brc_contact_bring_pairs(s));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &result, stride * n, "forces of pairs"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &history, BRC_CONTACT_HISTORY * n, "pairs"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &touch, n, "pairs"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(s->contact->touch, 0, touch, 4 * n));
-    BRC_TRY_OR(cleanup, brc_download(s, s->contact->result, bytes, result, stride * n));
-    BRC_TRY_OR(cleanup, brc_download(s, l->history, bytes, history, BRC_CONTACT_HISTORY * n));
+    BRC_LOCAL(s->context, stride * n, double, result, "forces of pairs");
+    BRC_LOCAL(s->context, BRC_CONTACT_HISTORY * n, double, history, "pairs");
+    BRC_LOCAL(s->context, n, int32_t, touch, "pairs");
+    BRC_TRY(brc_buffer_read(s->contact->touch, 0, touch, 4 * n));
+    BRC_TRY(brc_download(s, s->contact->result, bytes, result, stride * n));
+    BRC_TRY(brc_download(s, l->history, bytes, history, BRC_CONTACT_HISTORY * n));
     for (int64_t p = 0; p < n; ++p) {
         const double *one = result + stride * p;
         if (!touch[p]) continue;
@@ -31,17 +28,13 @@ brc_status brc_simulation_touching(brc_simulation *s, brc_touching *out)
         out->force += one[6];
         out->penetration = fmax(out->penetration, one[7]);
     }
-cleanup:
-    brc_memory_free(touch);
-    brc_memory_free(result);
-    brc_memory_free(history);
-    return status;
+    return BRC_OK;
 }
 
 int64_t brc_simulation_pair_bytes(const brc_simulation *s)
 {
     if (!s->contact) return 0;
-    const int64_t state = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int64_t state = brc_state_bytes(s);
     const int64_t result = (BRC_CONTACT_RESULT + 2 * s->contact->width) * state,
                   lists = 2 * (2 * 4 + BRC_CONTACT_HISTORY * state); /* ends and history, now and before */
     const int64_t breaks = s->fracture ? 4 * 4 + result : 0; /* packed, its place; flags and list of changed pairs */
@@ -62,7 +55,7 @@ brc_contact_report brc_simulation_contact_report(const brc_simulation *s)
 brc_status brc_contact_read_pairs(brc_simulation *s, int32_t *ends, double *history)
 {
     const brc_contact_list *l = &s->contact->now;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     if (l->n_pairs == 0) return BRC_OK;
     if (history) BRC_TRY(brc_contact_bring_pairs(s));
     if (ends) BRC_TRY(brc_buffer_read(l->ends, 0, ends, 8 * (int64_t)l->n_pairs));

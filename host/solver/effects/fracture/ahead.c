@@ -122,17 +122,11 @@ static int64_t ahead_steps(const brc_simulation *s, int64_t n)
     if (quiet < most) most = quiet;
     if (most < BRC_AHEAD_FEWEST || n < 2 || !may(s)) return 0;
     if (n < most) most = n;
-    return !s->fracture && brc_effects_next_look(s) >= most ? 0 : most; /* without a look nobody asks */
+    return !s->fracture && brc_effects_next_probe(s) >= most ? 0 : most; /* without a probe nobody asks */
 }
 
-bool brc_ahead_is_on(const brc_simulation *s)
-{
-    return s->ahead && s->ahead->on;
-}
-bool brc_ahead_is_whole(const brc_simulation *s)
-{
-    return brc_ahead_is_on(s) && is_of_beams(s) && !s->ahead->broke;
-}
+BRC_READ(bool, brc_ahead_is_on, s->ahead && s->ahead->on)
+BRC_READ(bool, brc_ahead_is_whole, brc_ahead_is_on(s) && is_of_beams(s) && !s->ahead->broke)
 
 static brc_status ahead_made(brc_simulation *s, struct brc_ahead **out)
 {
@@ -159,7 +153,7 @@ static brc_status ahead_begin(brc_simulation *s)
         BRC_TRY(brc_buffer_fill_zero(a->found));
     }
     BRC_TRY(walk(s, false));
-    brc_effects_begin_looks(s);
+    brc_effects_begin_probes(s);
     a->first = brc_simulation_step(s);
     a->open = brc_half_kick_is_missing(s);
     a->on = true;
@@ -188,7 +182,7 @@ static brc_status ahead_end(brc_simulation *s, bool *stands)
     bool seen = true;
     a->on = false;
     BRC_TRY(count_stretch(s, &n));
-    BRC_TRY(brc_effects_end_looks(s, &seen));
+    BRC_TRY(brc_effects_end_probes(s, &seen));
     *stands = !(n > 0) && seen;
     if (*stands) {
         if (!c) a->calm += last - a->first;
@@ -204,7 +198,7 @@ static brc_status ahead_end(brc_simulation *s, bool *stands)
         a->broke = true;
     }
     if (c) BRC_TRY(brc_buffer_fill_zero(c->mark));
-    if (c) BRC_TRY(brc_buffer_fill_zero(c->rings->touched));
+    if (c) BRC_TRY(brc_buffer_fill_zero(brc_rings_touched(c->rings)));
     brc_log(s->context, BRC_LOG_DEBUG, "steps %lld to %lld are taken again: %s in them",
             (long long)brc_simulation_step(s) + 1, (long long)last, n > 0 ? "bonds break" : "surfaces come near");
     return BRC_OK;

@@ -4,7 +4,7 @@
  * to break after all, everything is put back to the start of the stretch and its steps are taken again with a question
  * each: the same bits in either case. A stretch is no longer than the steps before it in which nothing broke, so at
  * most half of all steps are taken in vain. Beams break on the device, and the host is to know where surfaces may
- * touch: there it is the count of broken ones that is asked for. So it is with the looks at how far surfaces moved,
+ * touch: there it is the count of broken ones that is asked for. So it is with the probes of how far surfaces moved,
  * once they found nothing: they are put down on the device, and the stretch stands where each found nothing. */
 #ifndef BRC_SOLVER_AHEAD_H
 #define BRC_SOLVER_AHEAD_H

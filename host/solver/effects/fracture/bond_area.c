@@ -1,21 +1,17 @@
 /* Areas of bonds from the domain alone, so that they never depend on device, order or state. */
 #include "bond_area.h"
+#include "../../core/sym3.h"
 #include "strengths.h"
 #include <lapacke.h>
 #include <math.h>
 
-static double length_of(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
 double brc_bond_area(const brc_domain *d, int64_t bond)
 {
     const int64_t h = d->bond_half_edge[bond], j = d->neighbour[h], i = d->neighbour[d->twin[h]];
-    if (d->element_kind != BRC_ELEMENT_SPHERE) return length_of(d->area_vector + 3 * h);
+    if (d->element_kind != BRC_ELEMENT_SPHERE) return brc_norm3(d->area_vector + 3 * h);
     const double branch[3] = {d->position[3 * j] - d->position[3 * i], d->position[3 * j + 1] - d->position[3 * i + 1],
                               d->position[3 * j + 2] - d->position[3 * i + 2]};
-    return 3 * brc_strengths_volume(d, bond) / length_of(branch);
+    return 3 * brc_strengths_volume(d, bond) / brc_norm3(branch);
 }
 
 /* n (x) n as a vector whose products are those of the tensors. */
@@ -32,7 +28,7 @@ static void direction(const brc_domain *d, int64_t e, int64_t h, double n[3])
 {
     for (int k = 0; k < 3; ++k)
         n[k] = d->position[3 * (int64_t)d->neighbour[h] + k] - d->position[3 * e + k];
-    const double length = length_of(n);
+    const double length = brc_norm3(n);
     for (int k = 0; k < 3; ++k)
         n[k] /= length;
 }
@@ -86,7 +82,7 @@ brc_status brc_bond_areas_closed(brc_context *context, const brc_domain *d, doub
             for (int k = 0; k < 6; ++k)
                 share += m[k] * q[k];
             area[d->bond[h]] += 3 * fmin(fmax(share, least), most) * d->volume[e] /
-                                (d->quality.volume_fraction * (double)degree * length_of(branch));
+                                (d->quality.volume_fraction * (double)degree * brc_norm3(branch));
         }
     }
     return BRC_OK;

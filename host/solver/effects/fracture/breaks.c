@@ -4,10 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-bool brc_simulation_has_fracture(const brc_simulation *s)
-{
-    return s->fracture != NULL;
-}
+BRC_READ(bool, brc_simulation_has_fracture, s->fracture != NULL)
 
 static brc_status refuse(const brc_simulation *s)
 {
@@ -39,7 +36,7 @@ static brc_status read_entries(brc_simulation *s, entries *e)
 {
     const brc_breaking *f = s->fracture;
     const int64_t n = s->layout->n_slots * s->layout->slice;
-    const int coeff = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
+    const int coeff = brc_coeff_bytes(s);
     BRC_TRY(BRC_ALLOCATE(s->context, &e->step, n, "broken bonds"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->mode, n, "broken bonds"));
     BRC_TRY(BRC_ALLOCATE(s->context, &e->stress, n, "broken bonds"));
@@ -52,10 +49,7 @@ static brc_status read_entries(brc_simulation *s, entries *e)
 
 /* ---- moments ---- */
 
-int64_t brc_fracture_moment(const brc_simulation *s)
-{
-    return brc_simulation_total_steps(s) + s->fracture->n_loads;
-}
+BRC_READ(int64_t, brc_fracture_moment, brc_simulation_total_steps(s) + s->fracture->n_loads)
 
 brc_status brc_simulation_softening(brc_simulation *s, brc_softening_report *out)
 {
@@ -195,22 +189,15 @@ brc_status brc_fracture_whole(brc_simulation *s, uint8_t **out)
 brc_status brc_fracture_whole_at(brc_simulation *s, int64_t moment, uint8_t **out)
 {
     const int64_t n_entries = s->layout->n_slots * s->layout->slice;
-    int32_t *step = NULL;
-    uint8_t *whole = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &step, n_entries, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, s->domain->n_half_edges, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
+    *out = NULL;
+    BRC_LOCAL(s->context, n_entries, int32_t, step, "unbroken bonds");
+    BRC_LOCAL(s->context, s->domain->n_half_edges, uint8_t, whole, "unbroken bonds");
+    BRC_TRY(brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k)
         if (s->layout->half_edge[k] >= 0) whole[s->layout->half_edge[k]] = step[k] == 0 || step[k] > moment;
-cleanup:
-    brc_memory_free(step);
-    if (status != BRC_OK) {
-        brc_memory_free(whole);
-        whole = NULL;
-    }
     *out = whole;
-    return status;
+    whole = NULL;
+    return BRC_OK;
 }
 
 brc_status brc_simulation_whole(brc_simulation *s, uint8_t **out)

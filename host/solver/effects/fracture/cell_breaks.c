@@ -18,16 +18,13 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
     brc_cell_breaks *cells = s->fracture->cells;
-    double *limit = NULL, *whole = NULL, *least = NULL;
-    int32_t *twin = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &whole, n_entries, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &least, layout->n_rows, "smallest limits"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "twins"));
+    BRC_LOCAL(s->context, n_entries, double, limit, "limits of bonds");
+    BRC_LOCAL(s->context, n_entries, double, whole, "unbroken bonds");
+    BRC_LOCAL(s->context, layout->n_rows, double, least, "smallest limits");
+    BRC_LOCAL(s->context, n_entries, int32_t, twin, "twins");
     for (int32_t r = 0; r < layout->n_rows; ++r)
         least[r] = never;
-    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, d, twin));
+    BRC_TRY(brc_layout_twins(s->context, layout, d, twin));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double value = h >= 0 ? strength[d->bond[h]] : 0;
@@ -37,59 +34,36 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
         double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
         *own = fmin(*own, limit[k]);
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->limit, limit, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->alive, whole, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, cells->least, least, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_int(cells->twin, twin, n_entries));
-cleanup:
-    brc_memory_free(limit);
-    brc_memory_free(whole);
-    brc_memory_free(least);
-    brc_memory_free(twin);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, cells->limit, limit, n_entries));
+    BRC_TRY(brc_upload_coeff(s, cells->alive, whole, n_entries));
+    BRC_TRY(brc_upload_coeff(s, cells->least, least, layout->n_rows));
+    return brc_upload_int(cells->twin, twin, n_entries);
 }
 
-static bool breaks(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_cells(w);
-}
-static bool dlsm_by_bond(const brc_wants *w)
-{
-    return brc_wants_deforming(w) && !w->by_element;
-}
-static bool dlsm_by_element(const brc_wants *w)
-{
-    return brc_wants_deforming(w) && w->by_element;
-}
-static bool published_by_bond(const brc_wants *w)
-{
-    return brc_wants_rigid_cells(w) && !w->by_element;
-}
+BRC_WANTED(breaks, w->scene->has_fracture &&brc_wants_cells(w))
+BRC_WANTED(dlsm_by_bond, brc_wants_deforming(w) && !w->by_element)
+BRC_WANTED(dlsm_by_element, brc_wants_deforming(w) && w->by_element)
+BRC_WANTED(published_by_bond, brc_wants_rigid_cells(w) && !w->by_element)
 
 #define AT(member) BRC_FIELD_AT(brc_cell_breaks, member)
 static const brc_field_row rows[] = {
-    {"limit", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(limit), "limits of bonds", "Pa",
-     BRC_KEPT("cells.limit", BRC_KEEP_BROKEN)},
-    {"alive", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(alive), "unbroken bonds", "-",
-     BRC_KEPT("cells.alive", BRC_KEEP_BROKEN)},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "twins", "-", BRC_NOT_KEPT},
-    {"mark", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(mark), "marked bonds", "-", BRC_NOT_KEPT},
-    {"measure", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses of marked bonds", "Pa", BRC_NOT_KEPT},
-    {"least", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(least), "smallest limits", "Pa",
-     BRC_KEPT("cells.least", BRC_KEEP_OWNERS)},
+    BRC_PART_KEPT(limit, brc_each_entry, 1, COEFF, NULL, "limits of bonds", "Pa", "cells.limit", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(alive, brc_each_entry, 1, COEFF, NULL, "unbroken bonds", "-", "cells.alive", BRC_KEEP_BROKEN),
+    BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "twins", "-"),
+    BRC_FIELD(mark, brc_each_entry, 1, INT, NULL, "marked bonds", "-"),
+    BRC_FIELD(measure, brc_each_entry, 1, COEFF, NULL, "stresses of marked bonds", "Pa"),
+    BRC_PART_KEPT(least, brc_each_row, 1, COEFF, NULL, "smallest limits", "Pa", "cells.least", BRC_KEEP_OWNERS),
     {"plane", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(modulus), "moduli", "Pa", BRC_NOT_KEPT},
-    {"support", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(support), "supports", "-", BRC_NOT_KEPT},
-    {"stiffest", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_deforming, AT(stiffest), "supports", "1/m^2",
-     BRC_NOT_KEPT},
-    {"changed", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(changed), "changed elements", "-", BRC_NOT_KEPT},
-    {"look", brc_each_group, 1, BRC_FIELD_INT, dlsm_by_bond, AT(look), "groups to look at", "-", BRC_NOT_KEPT},
-    {"weight", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(weight), "weights of broken bonds", "-", BRC_NOT_KEPT},
-    {"found", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(found), "marks of elements", "-", BRC_NOT_KEPT},
+    BRC_FIELD(support, brc_each_row, 1, COEFF, NULL, "supports", "-"),
+    BRC_FIELD(stiffest, brc_each_row, 1, COEFF, brc_wants_deforming, "supports", "1/m^2"),
+    BRC_FIELD(changed, brc_each_row, 1, INT, NULL, "changed elements", "-"),
+    BRC_FIELD(look, brc_each_group, 1, INT, dlsm_by_bond, "groups to look at", "-"),
+    BRC_FIELD(weight, brc_each_row, 1, STATE, NULL, "weights of broken bonds", "-"),
+    BRC_FIELD(found, brc_each_row, 1, STATE, NULL, "marks of elements", "-"),
     {"own_branch", brc_each_entry, 3, BRC_FIELD_COEFF, dlsm_by_element, AT(branch), "branches", "m", BRC_NOT_KEPT},
-    {"spanned", brc_each_block, 6, BRC_FIELD_COEFF, brc_wants_rigid_cells, AT(spanned), "supports", "-",
-     BRC_KEPT("cells.spanned", BRC_KEEP_OWNERS)},
-    {"bond_ratio", brc_each_row, 1, BRC_FIELD_COEFF, published_by_bond, AT(bond_ratio), "ratios of bonds", "-",
-     BRC_NOT_KEPT},
+    BRC_PART_KEPT(spanned, brc_each_block, 6, COEFF, brc_wants_rigid_cells, "supports", "-", "cells.spanned",
+                  BRC_KEEP_OWNERS),
+    BRC_FIELD(bond_ratio, brc_each_row, 1, COEFF, published_by_bond, "ratios of bonds", "-"),
 };
 BRC_FIELD_TABLE(brc_cell_break_fields, "breaks of cells", BRC_LIFE_RUN, breaks, rows);
 
@@ -153,22 +127,18 @@ static brc_status share_room(brc_simulation *s, brc_cell_breaks *c)
 
 brc_status brc_cell_breaks_create(brc_simulation *s)
 {
-    brc_strengths strengths = {0};
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_strengths_free) brc_strengths strengths = {0};
     BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->cells, 1, "fracture"));
     BRC_TRY(brc_fields_create(s->device, &brc_cell_break_fields, &s->wants, s->fracture->cells));
     BRC_TRY(share_room(s, s->fracture->cells));
     s->fracture->cells->by_element = !brc_scene_breaks_by_bond(s->scene, s->scene->model.kind);
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
-    BRC_TRY_OR(cleanup, upload_bonds(s, strengths.tension));
-    BRC_TRY_OR(cleanup, brc_rings_create(s, &s->fracture->cells->rings));
-    BRC_TRY_OR(cleanup, make_passes(s, s->fracture->cells));
-    BRC_TRY_OR(cleanup, s->model->breaking->create(s));
-    if (s->fracture->cells->by_element) BRC_TRY_OR(cleanup, brc_cell_criteria_create(s));
-    BRC_TRY_OR(cleanup, create_cohesion(s, &strengths));
-cleanup:
-    brc_strengths_free(&strengths);
-    return status;
+    BRC_TRY(upload_bonds(s, strengths.tension));
+    BRC_TRY(brc_rings_create(s, &s->fracture->cells->rings));
+    BRC_TRY(make_passes(s, s->fracture->cells));
+    BRC_TRY(s->model->breaking->create(s));
+    if (s->fracture->cells->by_element) BRC_TRY(brc_cell_criteria_create(s));
+    return create_cohesion(s, &strengths);
 }
 
 void brc_cell_breaks_free(brc_simulation *s)
@@ -195,10 +165,7 @@ static brc_status ask(brc_simulation *s, brc_status (*what)(brc_simulation *))
     return what ? what(s) : BRC_OK;
 }
 
-bool brc_cell_breaks_by_bond(const brc_simulation *s)
-{
-    return s->fracture && s->fracture->cells && !s->fracture->cells->by_element;
-}
+BRC_READ(bool, brc_cell_breaks_by_bond, s->fracture && s->fracture->cells && !s->fracture->cells->by_element)
 
 /* Bonds above a share of their limit are marked; *n: marks. */
 static brc_status mark_bonds(brc_simulation *s, double share, double *n)
@@ -247,7 +214,7 @@ static brc_status find_rings(brc_simulation *s)
     if (s->contact) {
         const brc_step_phase phase = brc_phase_within(s, BRC_PHASE_SEARCH);
         BRC_TRY(brc_contact_broken(s, 0));
-        BRC_TRY(brc_rings_touched(s, rings, &rings->around));
+        BRC_TRY(brc_rings_list_touched(s, rings));
         if (s->model->breaking->gradients_around) {
             brc_force_request request = brc_force_request_of_state(s, BRC_BOOK_NOTHING);
             request.rings = rings;
@@ -257,10 +224,10 @@ static brc_status find_rings(brc_simulation *s)
         brc_phase_within(s, phase);
     }
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
-    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    BRC_TRY(brc_contact_spread(s, brc_rings_level(rings), 1 + 2));
     if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
-    return brc_rings_close(s, rings, s->model->breaking->places(s, rings) ? BRC_RINGS_PLACE : BRC_RINGS_KEEP,
-                           &rings->around);
+    const bool places = s->model->breaking->places && s->model->breaking->places(s, rings);
+    return brc_rings_close(s, rings, places ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, NULL);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in
@@ -279,6 +246,7 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
 {
     brc_breaking *f = s->fracture;
     brc_rings *rings = f->cells->rings;
+    const brc_ring_list *around = brc_rings_around(rings);
     double marked, before, outside_before, after, outside, weight;
     const brc_model_cohesion *o = cohesion_of(s);
     if (o->is_on && o->is_on(s))
@@ -288,31 +256,28 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     if (!(marked > 0)) return BRC_OK;
     /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left:
      * velocities gain half a kick of the one and lose half a kick of the other, in the rings where they differ. */
-    rings->half_kick = half_kick;
     BRC_TRY(outside_energy(s, &outside_before));
     BRC_TRY(kick_others(s, half_kick));
-    if (rings->whole_force) BRC_TRY(brc_elements_kick(s, half_kick));
-    if (rings->whole_force) BRC_TRY(brc_rings_keep_force(s, rings));
+    BRC_TRY(brc_rings_begin(s, rings, half_kick));
     BRC_TRY(break_marked(s, &before));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(ask(s, o->after_breaks));
     BRC_TRY(find_rings(s));
     BRC_TRY(brc_force_around_breaks(s, rings));
-    if (o->change) BRC_TRY(o->change(s, rings->whole_force ? 0 : half_kick));
-    if (rings->whole_force) BRC_TRY(brc_rings_book_whole(s, rings));
-    if (rings->whole_force) BRC_TRY(brc_elements_kick(s, -half_kick));
+    if (o->change) BRC_TRY(o->change(s, brc_rings_are_whole(rings) ? 0 : half_kick));
+    BRC_TRY(brc_rings_end(s, rings));
     BRC_TRY(kick_others(s, -half_kick));
     BRC_TRY(s->model->breaking->energy_around(s, rings, false, &after));
     BRC_TRY(outside_energy(s, &outside));
-    BRC_TRY(brc_rings_sum(s, &rings->around, 0, f->cells->weight, &weight));
+    BRC_TRY(brc_rings_sum(s, around, 0, f->cells->weight, &weight));
     if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
     BRC_TRY(ask(s, o->refresh));
-    const int32_t n = rings->around.n[0];
+    const int32_t n = around->n[0];
     BRC_TRY(BRC_RUN(f->cells->share, n, {"step", BRC_INT(brc_fracture_moment(s))},
                     {"per_weight", BRC_STATE((before + outside_before - after - outside) / weight)},
-                    {"list", BRC_BUF(rings->around.upto[0])}));
-    BRC_TRY(brc_rings_forget(rings, &rings->around));
-    if (o->settle) BRC_TRY(o->settle(s, &rings->around));
+                    {"list", BRC_BUF(around->upto[0])}));
+    BRC_TRY(brc_rings_forget(rings));
+    if (o->settle) BRC_TRY(o->settle(s, around));
     return brc_contact_list_bonded(s);
 }
 

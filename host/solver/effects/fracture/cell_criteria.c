@@ -40,9 +40,8 @@ brc_status brc_cell_criteria_mark(brc_simulation *s, double *n)
 brc_status brc_cell_criteria_settle(brc_simulation *s)
 {
     const brc_breaking *f = s->fracture;
-    const int32_t n = s->layout->n_rows;
     if (s->scene->fracture.level != 1) return BRC_OK;
-    return brc_pass_run(f->cells->weigh, n);
+    return brc_pass_run(f->cells->weigh, s->layout->n_rows);
 }
 
 brc_status brc_cell_criteria_ratio(brc_simulation *s, double *out)

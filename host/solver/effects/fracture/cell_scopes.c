@@ -20,17 +20,11 @@ brc_scope brc_scope_of_deltas(const brc_simulation *s, const brc_scope *outer)
     return (brc_scope){.owner = "changes of the rim", .base = s->fracture->cells, BRC_VALUES(values), .outer = outer};
 }
 
-brc_rings *brc_cell_breaks_rings(const brc_simulation *s)
-{
-    return s->fracture && s->fracture->cells ? s->fracture->cells->rings : NULL;
-}
+BRC_READ(brc_rings *, brc_cell_breaks_rings, s->fracture && s->fracture->cells ? s->fracture->cells->rings : NULL)
 
 brc_buffer *brc_cell_breaks_array(const brc_simulation *s, const char *name)
 {
     return brc_field_named(&brc_cell_break_fields, s->fracture->cells, name);
 }
 
-brc_buffer *brc_cell_breaks_marked(const brc_simulation *s)
-{
-    return s->fracture->cells->n_marked;
-}
+BRC_READ(brc_buffer *, brc_cell_breaks_marked, s->fracture->cells->n_marked)

@@ -7,22 +7,10 @@
 #include "../../core/rings.h"
 #include "strengths.h"
 
-static bool breaks(const brc_wants *w)
-{
-    return w->scene->has_fracture;
-}
-static bool costs(const brc_wants *w)
-{
-    return w->softens;
-}
-static brc_status step(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_fracture_step(s, now->half_kick);
-}
-static brc_status lost(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_fracture_lost(s, &now->ledger->fracture);
-}
+BRC_WANTED(breaks, w->scene->has_fracture)
+BRC_WANTED(costs, w->softens)
+BRC_CALLED(step, brc_fracture_step(s, now->half_kick))
+BRC_CALLED(lost, brc_fracture_lost(s, &now->ledger->fracture))
 static void ask(brc_wants *w, const int32_t *material)
 {
     if (w->scene->has_fracture) brc_strengths_ask(w->scene, w->domain, material, &w->weighted, &w->softens);
@@ -46,10 +34,7 @@ static brc_status stretch(brc_simulation *s, const brc_occasion *now)
         BRC_TRY(brc_fracture_store_stretch(s, now->store));
     return cohesion && cohesion->store_ahead ? cohesion->store_ahead(s, now->store) : BRC_OK;
 }
-static brc_status store(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_fracture_store_state(s, now->store);
-}
+BRC_CALLED(store, brc_fracture_store_state(s, now->store))
 
 static void release(brc_simulation *s)
 {

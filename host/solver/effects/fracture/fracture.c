@@ -47,17 +47,13 @@ static brc_status find_limits(brc_simulation *s)
 {
     const brc_domain *d = s->domain;
     const int32_t n_materials = s->scene->n_materials, n_pairs = s->scene->n_bodies * n_materials;
-    double *pair = NULL, *mean = NULL;
-    int64_t *count = NULL;
-    bool *known = NULL;
-    brc_status status = BRC_OK;
     const double shear = shear_limit(&s->scene->fracture, &s->fracture->slope);
     s->fracture->friction = sin(s->scene->fracture.friction);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &pair, 3 * (int64_t)n_pairs, "limits of materials"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &known, n_pairs, "limits of materials"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mean, s->scene->n_bodies, "radii of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &count, s->scene->n_bodies, "radii of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &s->fracture->limit, 3 * d->n_elements, "limits of elements"));
+    BRC_LOCAL(s->context, 3 * (int64_t)n_pairs, double, pair, "limits of materials");
+    BRC_LOCAL(s->context, n_pairs, bool, known, "limits of materials");
+    BRC_LOCAL(s->context, s->scene->n_bodies, double, mean, "radii of bodies");
+    BRC_LOCAL(s->context, s->scene->n_bodies, int64_t, count, "radii of bodies");
+    BRC_TRY(BRC_ALLOCATE(s->context, &s->fracture->limit, 3 * d->n_elements, "limits of elements"));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int32_t b = d->body[e] < s->scene->n_bodies ? d->body[e] : 0;
         if (d->radius) mean[b] += d->radius[e];
@@ -68,18 +64,12 @@ static brc_status find_limits(brc_simulation *s)
                       at = b * n_materials + m;
         if (!known[at]) {
             const brc_limit_case of = {&s->scene->materials[m], b, e, (double)count[b], mean[b], shear};
-            BRC_TRY_OR(cleanup, s->model->limits ? s->model->limits(s, &of, pair + 3 * at)
-                                                 : limits_of_solid(&of, pair + 3 * at));
+            BRC_TRY(s->model->limits ? s->model->limits(s, &of, pair + 3 * at) : limits_of_solid(&of, pair + 3 * at));
         }
         known[at] = true;
         memcpy(s->fracture->limit + 3 * e, pair + 3 * at, 3 * sizeof *pair);
     }
-cleanup:
-    brc_memory_free(pair);
-    brc_memory_free(known);
-    brc_memory_free(mean);
-    brc_memory_free(count);
-    return status;
+    return BRC_OK;
 }
 
 /* ---- arrays ---- */
@@ -89,10 +79,8 @@ static brc_status upload_rows(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
-    double *record = NULL, *limit = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &record, 8 * (int64_t)layout->n_rows, "virial records"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, 3 * (int64_t)layout->n_rows, "limits"));
+    BRC_LOCAL(s->context, 8 * (int64_t)layout->n_rows, double, record, "virial records");
+    BRC_LOCAL(s->context, 3 * (int64_t)layout->n_rows, double, limit, "limits");
     for (int64_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
         double *volume = record + (8 * (r / layout->slice) + 6) * layout->slice + r % layout->slice;
@@ -101,69 +89,45 @@ static brc_status upload_rows(brc_simulation *s)
         for (int c = 0; e >= 0 && c < 3; ++c)
             limit[3 * r + c] = s->fracture->limit[3 * (int64_t)e + c];
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, s->fracture->limits, limit, 3 * (int64_t)layout->n_rows));
-cleanup:
-    brc_memory_free(record);
-    brc_memory_free(limit);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, s->fracture->record, record, 8 * (int64_t)layout->n_rows));
+    return brc_upload_coeff(s, s->fracture->limits, limit, 3 * (int64_t)layout->n_rows);
 }
 
-static bool breaks(const brc_wants *w)
-{
-    return w->scene->has_fracture;
-}
+BRC_WANTED(breaks, w->scene->has_fracture)
 /* By a stress of elements: beams always, cells where the criterion asks for it. */
-static bool breaks_by_element(const brc_wants *w)
-{
-    return breaks(w) && (brc_wants_spheres(w) || w->by_element);
-}
-static bool weighted(const brc_wants *w)
-{
-    return w->weighted || (w->softens && brc_wants_spheres(w));
-}
+BRC_WANTED(breaks_by_element, breaks(w) && (brc_wants_spheres(w) || w->by_element))
+BRC_WANTED(weighted, w->weighted || (w->softens && brc_wants_spheres(w)))
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
 static const brc_field_row break_rows[] = {
-    {"break_step", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_step), "steps of breaks", "-",
-     BRC_KEPT("fracture.step", BRC_KEEP_BROKEN)},
-    {"break_mode", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(break_mode), "modes of breaks", "-",
-     BRC_KEPT("fracture.mode", BRC_KEEP_BROKEN)},
-    {"break_stress", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_stress), "stresses of breaks", "Pa",
-     BRC_KEPT("fracture.stress", BRC_KEEP_BROKEN)},
-    {"break_energy", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(break_energy), "energies of breaks", "J",
-     BRC_KEPT("fracture.energy", BRC_KEEP_BROKEN)},
-    {"lost", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(lost), "energy of broken bonds", "J",
-     BRC_KEPT("fracture.lost", BRC_KEEP_ALL)},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_cells, AT(gone), "lost bonds", "-",
-     BRC_KEPT("cells.gone", BRC_KEEP_ALL)},
-    {"gone", brc_each_row, 1, BRC_FIELD_STATE, brc_wants_lost_beams, AT(gone), "lost beams", "-",
-     BRC_KEPT("closure.gone", BRC_KEEP_ALL)},
-    {"broken", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(broken), "broken bonds", "-",
-     BRC_KEPT("fracture.broken", BRC_KEEP_ALL)},
+    BRC_PART_KEPT(break_step, brc_each_entry, 1, INT, NULL, "steps of breaks", "-", "fracture.step", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(break_mode, brc_each_entry, 1, INT, NULL, "modes of breaks", "-", "fracture.mode", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(break_stress, brc_each_entry, 1, COEFF, NULL, "stresses of breaks", "Pa", "fracture.stress",
+                  BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(break_energy, brc_each_entry, 1, COEFF, NULL, "energies of breaks", "J", "fracture.energy",
+                  BRC_KEEP_BROKEN),
+    BRC_KEPT_FIELD(lost, brc_each_row, 1, STATE, NULL, "energy of broken bonds", "J", "fracture.lost"),
+    BRC_KEPT_FIELD(gone, brc_each_row, 1, STATE, brc_wants_cells, "lost bonds", "-", "cells.gone"),
+    BRC_KEPT_FIELD(gone, brc_each_row, 1, STATE, brc_wants_lost_beams, "lost beams", "-", "closure.gone"),
+    BRC_KEPT_FIELD(broken, brc_each_row, 1, STATE, NULL, "broken bonds", "-", "fracture.broken"),
 };
 BRC_FIELD_TABLE(brc_break_fields, "broken bonds", BRC_LIFE_RUN, breaks, break_rows);
 static const brc_field_row criterion_rows[] = {
-    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_spheres, AT(record), "virial records", "J, m^3",
-     BRC_KEPT("fracture.record", BRC_KEEP_ALL)},
-    {"record", brc_each_block, 8, BRC_FIELD_COEFF, brc_wants_cells, AT(record), "virial records", "J, m^3",
-     BRC_NOT_KEPT},
-    {"stress", brc_each_row, 6, BRC_FIELD_COEFF, NULL, AT(stress), "virial stresses", "Pa", BRC_NOT_KEPT},
-    {"limits", brc_each_row, 3, BRC_FIELD_COEFF, NULL, AT(limits), "limits", "Pa", BRC_NOT_KEPT},
-    {"choice", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(choice), "chosen bonds", "-", BRC_NOT_KEPT},
-    {"measure", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(measure), "stresses at failure", "Pa", BRC_NOT_KEPT},
-    {"limit_margin", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(limit_margin), "bounds of stress", "-", BRC_NOT_KEPT},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(weight), "bounds of stress", "m^3",
-     BRC_KEPT("fracture.weight", BRC_KEEP_ALL)},
-    {"weight", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_cells, AT(weight), "bounds of stress", "m^3",
-     BRC_KEPT("cells.weight", BRC_KEEP_ALL)},
-    {"stress_bound", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_spheres, AT(stress_bound), "bounds of stress", "m^3",
-     BRC_KEPT("fracture.reach", BRC_KEEP_ALL)},
-    {"stress_bound", brc_each_row, 1, BRC_FIELD_COEFF, brc_wants_cells, AT(stress_bound), "bounds of stress", "m^3",
-     BRC_NOT_KEPT},
-    {"mark", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(mark), "groups that lose bonds", "-", BRC_NOT_KEPT},
-    {"factor", brc_each_entry, 1, BRC_FIELD_COEFF, weighted, AT(factor), "factors of bonds", "-", BRC_NOT_KEPT},
-    {"weakest", brc_each_row, 1, BRC_FIELD_COEFF, weighted, AT(weakest), "factors of bonds", "-", BRC_NOT_KEPT},
+    BRC_KEPT_FIELD(record, brc_each_block, 8, COEFF, brc_wants_spheres, "virial records", "J, m^3", "fracture.record"),
+    BRC_FIELD(record, brc_each_block, 8, COEFF, brc_wants_cells, "virial records", "J, m^3"),
+    BRC_FIELD(stress, brc_each_row, 6, COEFF, NULL, "virial stresses", "Pa"),
+    BRC_FIELD(limits, brc_each_row, 3, COEFF, NULL, "limits", "Pa"),
+    BRC_FIELD(choice, brc_each_row, 1, INT, NULL, "chosen bonds", "-"),
+    BRC_FIELD(measure, brc_each_row, 1, COEFF, NULL, "stresses at failure", "Pa"),
+    BRC_FIELD(limit_margin, brc_each_row, 1, COEFF, NULL, "bounds of stress", "-"),
+    BRC_KEPT_FIELD(weight, brc_each_row, 1, COEFF, brc_wants_spheres, "bounds of stress", "m^3", "fracture.weight"),
+    BRC_KEPT_FIELD(weight, brc_each_row, 1, COEFF, brc_wants_cells, "bounds of stress", "m^3", "cells.weight"),
+    BRC_KEPT_FIELD(stress_bound, brc_each_row, 1, COEFF, brc_wants_spheres, "bounds of stress", "m^3",
+                   "fracture.reach"),
+    BRC_FIELD(stress_bound, brc_each_row, 1, COEFF, brc_wants_cells, "bounds of stress", "m^3"),
+    BRC_FIELD(mark, brc_each_group, 1, INT, NULL, "groups that lose bonds", "-"),
+    BRC_FIELD(factor, brc_each_entry, 1, COEFF, weighted, "factors of bonds", "-"),
+    BRC_FIELD(weakest, brc_each_row, 1, COEFF, weighted, "factors of bonds", "-"),
 };
 BRC_FIELD_TABLE(brc_criterion_fields, "criteria of elements", BRC_LIFE_RUN, breaks_by_element, criterion_rows);
 
@@ -328,41 +292,27 @@ brc_status brc_fracture_lost(brc_simulation *s, double *out)
 brc_status brc_fracture_ratio(brc_simulation *s, double *out)
 {
     const int32_t n = s->layout->n_rows;
-    brc_buffer *ratio = NULL;
-    double *value = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_buffer_free) brc_buffer *ratio = NULL;
     *out = 0;
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, n, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    BRC_TRY_OR(cleanup, find_stress(s));
-    BRC_TRY_OR(cleanup, BRC_RUN(s->fracture->ratio, n, {"ratio", BRC_BUF(ratio)}));
-    BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
-    for (int64_t e = 0; e < s->domain->n_elements; ++e)
-        *out = fmax(*out, value[e]);
-cleanup:
-    brc_buffer_free(&ratio);
-    brc_memory_free(value);
-    return status;
+    BRC_TRY(brc_new_coeff(s, &ratio, n, "failure ratios"));
+    BRC_TRY(find_stress(s));
+    BRC_TRY(BRC_RUN(s->fracture->ratio, n, {"ratio", BRC_BUF(ratio)}));
+    return brc_largest_coeff(s, ratio, out);
 }
 
-const double *brc_fracture_limits(const brc_simulation *s)
-{
-    return s->fracture->limit;
-}
+BRC_READ(const double *, brc_fracture_limits, s->fracture->limit)
 
 brc_status brc_fracture_judged(brc_simulation *s, double *stress, double *record)
 {
     const brc_layout *layout = s->layout;
-    const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
-    double *rows = NULL;
+    const int bytes = brc_coeff_bytes(s);
     BRC_TRY(brc_coeff_from_rows(s, s->fracture->stress, stress, 6));
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, 8 * (int64_t)layout->n_rows, "virial records"));
+    BRC_LOCAL(s->context, 8 * (int64_t)layout->n_rows, double, rows, "virial records");
     const brc_status status = brc_download(s, s->fracture->record, bytes, rows, 8 * (int64_t)layout->n_rows);
     for (int64_t k = 0; status == BRC_OK && k < 8 * s->domain->n_elements; ++k) {
         const int64_t r = layout->row_of_element[k / 8];
         record[k] = rows[(8 * (r / layout->slice) + k % 8) * layout->slice + r % layout->slice];
     }
-    brc_memory_free(rows);
     return status;
 }
 
@@ -377,12 +327,5 @@ brc_buffer *brc_fracture_lost_bonds(const brc_simulation *s)
     return s->fracture->gone ? s->fracture->gone : s->fracture->broken;
 }
 
-brc_buffer *brc_fracture_factors(const brc_simulation *s)
-{
-    return s->fracture->factor;
-}
-
-double brc_simulation_implied_fracture_energy(const brc_simulation *s)
-{
-    return s->fracture ? s->fracture->implied_energy : 0;
-}
+BRC_READ(brc_buffer *, brc_fracture_factors, s->fracture->factor)
+BRC_READ(double, brc_simulation_implied_fracture_energy, s->fracture ? s->fracture->implied_energy : 0)

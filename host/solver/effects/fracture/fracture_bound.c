@@ -31,13 +31,12 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
     brc_breaking *f = s->fracture;
     const brc_domain *d = s->domain;
     const int64_t n = s->layout->n_rows;
-    double *margin_of_limit = NULL, *weight = NULL, smallest[3];
-    brc_status status = BRC_OK;
+    double smallest[3];
     smallest_limits(s, smallest);
     for (int c = 0; c < 3; ++c)
         f->scale[c] = smallest[c] > 0 ? 1 / smallest[c] : 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &margin_of_limit, n, "bounds of stress"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &weight, n, "bounds of stress"));
+    BRC_LOCAL(s->context, n, double, margin_of_limit, "bounds of stress");
+    BRC_LOCAL(s->context, n, double, weight, "bounds of stress");
     for (int64_t r = 0; r < n; ++r) {
         const int64_t e = s->layout->element_of_row[r];
         margin_of_limit[r] = 1e30; /* rows of no element never fail */
@@ -48,12 +47,8 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
         for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h)
             weight[r] += brc_fracture_volume(d, d->neighbour[h]);
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->limit_margin, margin_of_limit, n));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weight, weight, n));
-cleanup:
-    brc_memory_free(margin_of_limit);
-    brc_memory_free(weight);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, f->limit_margin, margin_of_limit, n));
+    return brc_upload_coeff(s, f->weight, weight, n);
 }
 
 /* Factors by entries, and the smallest of every row in *weakest [n_rows], the caller's. */
@@ -61,10 +56,8 @@ static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond
 {
     brc_breaking *f = s->fracture;
     const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
-    double *factor = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &factor, entries, "factors of bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, weakest, n, "factors of bonds"));
+    BRC_LOCAL(s->context, entries, double, factor, "factors of bonds");
+    BRC_TRY(BRC_ALLOCATE(s->context, weakest, n, "factors of bonds"));
     for (int64_t r = 0; r < n; ++r)
         (*weakest)[r] = INFINITY;
     for (int64_t slice = 0; slice < n / s->layout->slice; ++slice)
@@ -76,29 +69,21 @@ static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond
         }
     for (int64_t r = 0; r < n; ++r)
         if (!isfinite((*weakest)[r])) (*weakest)[r] = 1; /* no bonds */
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->factor, factor, entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->weakest, *weakest, n));
-cleanup:
-    brc_memory_free(factor);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, f->factor, factor, entries));
+    return brc_upload_coeff(s, f->weakest, *weakest, n);
 }
 
 brc_status brc_fracture_bound(brc_simulation *s)
 {
     brc_breaking *f = s->fracture;
-    brc_strengths strengths;
-    double *weakest = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_strengths_free) brc_strengths strengths = {0};
+    BRC_FREED double *weakest = NULL;
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_breaks.c */
     f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
-    if (f->weighted) BRC_TRY_OR(cleanup, upload_factors(s, strengths.factor, &weakest));
-    if (softens) BRC_TRY_OR(cleanup, s->model->cohesion->create(s, &strengths));
-    BRC_TRY_OR(cleanup, upload_bounds(s, weakest));
-cleanup:
-    brc_memory_free(weakest);
-    brc_strengths_free(&strengths);
-    return status;
+    if (f->weighted) BRC_TRY(upload_factors(s, strengths.factor, &weakest));
+    if (softens) BRC_TRY(s->model->cohesion->create(s, &strengths));
+    return upload_bounds(s, weakest);
 }
 
 bool brc_wants_lost_beams(const brc_wants *w)

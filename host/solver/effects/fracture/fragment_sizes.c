@@ -18,10 +18,9 @@ static int by_mass(const void *a, const void *b)
 brc_status brc_fragment_sizes_of(brc_context *context, int64_t n, const brc_fragment *fragment, brc_fragment_sizes *out,
                                  double *below)
 {
-    size *order = NULL;
     double square = 0, sum = 0;
     *out = (brc_fragment_sizes){0};
-    BRC_TRY(BRC_ALLOCATE(context, &order, n, "sizes of fragments"));
+    BRC_LOCAL(context, n, size, order, "sizes of fragments");
     for (int64_t i = 0; i < n; ++i) {
         order[i] = (size){fragment[i].mass, i};
         out->mass += fragment[i].mass;
@@ -39,6 +38,5 @@ brc_status brc_fragment_sizes_of(brc_context *context, int64_t n, const brc_frag
         out->largest_share = order[n - 1].mass / out->mass;
         out->mean_mass = square / out->mass;
     }
-    brc_memory_free(order);
     return BRC_OK;
 }

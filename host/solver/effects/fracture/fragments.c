@@ -121,39 +121,28 @@ static void sum_up(const elements *e, int64_t n_elements, int64_t n, brc_fragmen
 brc_status brc_simulation_set_motion(brc_simulation *s, int32_t set, brc_fragment *out)
 {
     const int64_t n_elements = s->domain->n_elements;
-    elements e = {0};
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(free_elements) elements e = {0};
     *out = (brc_fragment){0};
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &e.fragment, n_elements, "motion of a set"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &e.fragment, n_elements, "motion of a set"));
     for (int64_t k = 0; k < n_elements; ++k)
         e.fragment[k] = set < 0 ? 0 : -1;
     for (int64_t k = 0; set >= 0 && k < s->domain->sets[set].n_members; ++k)
         e.fragment[s->domain->sets[set].members[k]] = 0;
-    BRC_TRY_OR(cleanup, read_elements(s, &e));
+    BRC_TRY(read_elements(s, &e));
     sum_up(&e, n_elements, 1, out);
-cleanup:
-    free_elements(&e);
-    return status;
+    return BRC_OK;
 }
 
 brc_status brc_simulation_fragment_list(brc_simulation *s, int64_t *n, brc_fragment **out)
 {
     const int64_t n_elements = s->domain->n_elements;
-    elements e = {0};
-    brc_fragment *list = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(free_elements) elements e = {0};
     *n = 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &e.fragment, n_elements, "fragments"));
-    BRC_TRY_OR(cleanup, brc_simulation_fragments(s, e.fragment, n));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &list, *n, "fragments"));
-    BRC_TRY_OR(cleanup, read_elements(s, &e));
-    sum_up(&e, n_elements, *n, list);
-cleanup:
-    free_elements(&e);
-    if (status != BRC_OK) {
-        brc_memory_free(list);
-        list = NULL;
-    }
-    *out = list;
-    return status;
+    *out = NULL;
+    BRC_TRY(BRC_ALLOCATE(s->context, &e.fragment, n_elements, "fragments"));
+    BRC_TRY(brc_simulation_fragments(s, e.fragment, n));
+    BRC_TRY(read_elements(s, &e));
+    BRC_TRY(BRC_ALLOCATE(s->context, out, *n, "fragments"));
+    sum_up(&e, n_elements, *n, *out);
+    return BRC_OK;
 }

@@ -9,26 +9,21 @@
 static brc_status find_broken(brc_simulation *s, brc_chosen *out)
 {
     const int64_t n_entries = s->layout->n_slots * s->layout->slice;
-    int32_t *step = NULL;
-    uint8_t *broken = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED uint8_t *broken = NULL;
     int64_t n = 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &step, n_entries, "broken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "broken bonds"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
+    BRC_LOCAL(s->context, n_entries, int32_t, step, "broken bonds");
+    BRC_TRY(BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "broken bonds"));
+    BRC_TRY(brc_buffer_read(s->fracture->break_step, 0, step, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         if (s->layout->half_edge[k] < 0 || step[k] == 0) continue;
         broken[s->layout->half_edge[k]] = 1;
         ++n;
     }
-    BRC_TRY_OR(cleanup, brc_memory_resize(s->context, (void **)&out->id, n, sizeof *out->id, "broken bonds"));
+    BRC_TRY(brc_memory_resize(s->context, (void **)&out->id, n, sizeof *out->id, "broken bonds"));
     out->n = 0;
     for (int64_t h = 0; h < s->domain->n_half_edges; ++h)
         if (broken[h]) out->id[out->n++] = (int32_t)h;
-cleanup:
-    brc_memory_free(step);
-    brc_memory_free(broken);
-    return status;
+    return BRC_OK;
 }
 
 brc_status brc_fracture_owners(brc_simulation *s, const brc_chosen *half_edges, brc_chosen *out)
@@ -61,12 +56,9 @@ static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
 {
     const brc_layout *layout = s->layout;
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *neighbour = NULL;
-    uint8_t *broken = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &broken, s->domain->n_half_edges, "neighbours"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
+    BRC_LOCAL(s->context, n, int32_t, neighbour, "neighbours");
+    BRC_LOCAL(s->context, s->domain->n_half_edges, uint8_t, broken, "neighbours");
+    BRC_TRY(brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
     for (int64_t i = 0; i < half_edges->n; ++i)
         broken[half_edges->id[i]] = 1;
     for (int32_t block = 0; block < layout->n_slices; ++block)
@@ -74,11 +66,7 @@ static brc_status point_home(brc_simulation *s, const brc_chosen *half_edges)
              k < (int64_t)layout->slot_start[block + 1] * layout->slice; ++k)
             if (layout->half_edge[k] >= 0 && broken[layout->half_edge[k]])
                 neighbour[k] = block * layout->slice + (int32_t)(k % layout->slice);
-    BRC_TRY_OR(cleanup, brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n));
-cleanup:
-    brc_memory_free(neighbour);
-    brc_memory_free(broken);
-    return status;
+    return brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n);
 }
 
 /* Stages that were entered, and the loads of static events: [first step, first load, first time, time step, stage]. */
@@ -86,30 +74,24 @@ static brc_status walk_moments(brc_simulation *s, brc_state_store *store)
 {
     enum { N = 5 };
     brc_breaking *f = s->fracture;
-    double *spans = NULL;
     int64_t n = f->n_spans;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spans, N * n, "stages with fracture"));
+    BRC_LOCAL(s->context, N * n, double, spans, "stages with fracture");
     for (int64_t k = 0; k < n; ++k) {
         const brc_break_span *span = &f->spans[k];
         const double row[N] = {(double)span->first_step, (double)span->first_load, span->first_time, span->time_step,
                                span->stage};
         memcpy(spans + N * k, row, sizeof row);
     }
-    BRC_TRY_OR(cleanup,
-               brc_store_array(s->context, store, "fracture.stages", BRC_STORED_DOUBLE, N, &n, (void **)&spans));
-    BRC_TRY_OR(cleanup, brc_store_array(s->context, store, "fracture.loads", BRC_STORED_DOUBLE, 1, &f->n_loads,
-                                        (void **)&f->load));
-    if (!store->loading) goto cleanup;
-    BRC_TRY_OR(cleanup, brc_memory_resize(s->context, (void **)&f->spans, n, sizeof *f->spans, "stages with fracture"));
+    BRC_TRY(brc_store_array(s->context, store, "fracture.stages", BRC_STORED_DOUBLE, N, &n, (void **)&spans));
+    BRC_TRY(brc_store_array(s->context, store, "fracture.loads", BRC_STORED_DOUBLE, 1, &f->n_loads, (void **)&f->load));
+    if (!store->loading) return BRC_OK;
+    BRC_TRY(brc_memory_resize(s->context, (void **)&f->spans, n, sizeof *f->spans, "stages with fracture"));
     f->n_spans = (int)n;
     for (int64_t k = 0; k < n; ++k) {
         const double *row = spans + N * k;
         f->spans[k] = (brc_break_span){(int64_t)row[0], (int64_t)row[1], row[2], row[3], (int32_t)row[4]};
     }
-cleanup:
-    brc_memory_free(spans);
-    return status;
+    return BRC_OK;
 }
 
 /* Arrays of both models and of the criterion. A broken beam has no length, and leaves the volume that an element's

@@ -60,31 +60,26 @@ static void read_row(brc_lines *lines, const brc_csv *csv, const brc_domain *d, 
 static brc_status read_factors(brc_context *context, const brc_scene *scene, const char *name, const brc_domain *d,
                                double **out)
 {
-    char *path = NULL, *text = NULL;
+    BRC_FREED char *text = NULL;
+    BRC_FREED char *path = NULL;
     size_t bytes = 0;
-    brc_lines lines = {0};
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_lines_end) brc_lines lines = {0};
     brc_csv csv = {.n_roles = N_ROLES,
                    .n_required = N_ROLES,
                    .role = role_name,
                    .what = "column",
                    .wanted = "a row of names: element_i, element_j and factor, then a row a bond"};
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, out, d->n_bonds, "factors of bonds"));
+    BRC_TRY(BRC_ALLOCATE(context, out, d->n_bonds, "factors of bonds"));
     if (name[0] == '/')
-        BRC_TRY_OR(cleanup, brc_file_join(context, "", name + 1, &path));
+        BRC_TRY(brc_file_join(context, "", name + 1, &path));
     else
-        BRC_TRY_OR(cleanup, brc_file_join(context, scene->folder, name, &path));
-    BRC_TRY_OR(cleanup, brc_file_read_whole(context, path, (size_t)1 << 40, &text, &bytes));
-    BRC_TRY_OR(cleanup, brc_lines_begin(context, path, text, bytes, &lines));
+        BRC_TRY(brc_file_join(context, scene->folder, name, &path));
+    BRC_TRY(brc_file_read_whole(context, path, (size_t)1 << 40, &text, &bytes));
+    BRC_TRY(brc_lines_begin(context, path, text, bytes, &lines));
     if (brc_csv_header(&lines, &csv))
         while (brc_csv_next(&lines))
             read_row(&lines, &csv, d, *out);
-    status = brc_lines_verdict(&lines);
-cleanup:
-    brc_lines_end(&lines);
-    brc_memory_free(text);
-    brc_memory_free(path);
-    return status;
+    return brc_lines_verdict(&lines);
 }
 
 /* ---- draws ---- */

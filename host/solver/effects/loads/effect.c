@@ -11,26 +11,11 @@ static bool some_load(const brc_wants *w, brc_load_kind a, brc_load_kind b)
         }
     return false;
 }
-static bool faces(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_FACE_DISPLACEMENT, BRC_LOAD_FACE_VELOCITY);
-}
-static bool tractions(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_TRACTION, BRC_LOAD_PRESSURE);
-}
-static bool imposed(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_ELEMENT_DISPLACEMENT, BRC_LOAD_ELEMENT_VELOCITY);
-}
-static bool pushed(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_ELEMENT_FORCE, BRC_LOAD_ELEMENT_FORCE);
-}
-static bool turned(const brc_wants *w)
-{
-    return some_load(w, BRC_LOAD_ELEMENT_ROTATION, BRC_LOAD_ELEMENT_ROTATION);
-}
+BRC_WANTED(faces, some_load(w, BRC_LOAD_FACE_DISPLACEMENT, BRC_LOAD_FACE_VELOCITY))
+BRC_WANTED(tractions, some_load(w, BRC_LOAD_TRACTION, BRC_LOAD_PRESSURE))
+BRC_WANTED(prescribed, some_load(w, BRC_LOAD_ELEMENT_DISPLACEMENT, BRC_LOAD_ELEMENT_VELOCITY))
+BRC_WANTED(pushed, some_load(w, BRC_LOAD_ELEMENT_FORCE, BRC_LOAD_ELEMENT_FORCE))
+BRC_WANTED(turned, some_load(w, BRC_LOAD_ELEMENT_ROTATION, BRC_LOAD_ELEMENT_ROTATION))
 
 static brc_status enter(brc_simulation *s, const brc_occasion *now)
 {
@@ -67,32 +52,17 @@ static brc_status create(brc_simulation *s)
 }
 static brc_status constrain(brc_simulation *s, const brc_occasion *now)
 {
-    if (now->vector) BRC_TRY(brc_loads_zero_imposed(s, now->vector));
+    if (now->vector) BRC_TRY(brc_loads_zero_prescribed(s, now->vector));
     return now->rotations ? brc_loads_zero_turned(s, now->rotations) : BRC_OK;
 }
-static brc_status store(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_loads_store(s, now->store);
-}
-static brc_status place(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_loads_prescribe(s, now->t);
-}
-static brc_status open_step(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_turns_begin_step(s, now->t, now->until);
-}
-static brc_status close_step(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_loads_impose_velocity(s, now->t);
-}
-static brc_status push(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_pushes_apply(s, now->request);
-}
+BRC_CALLED(store, brc_loads_store(s, now->store))
+BRC_CALLED(place, brc_loads_prescribe(s, now->t))
+BRC_CALLED(open_step, brc_turns_begin_step(s, now->t, now->until))
+BRC_CALLED(close_step, brc_loads_impose_velocity(s, now->t))
+BRC_CALLED(push, brc_pushes_apply(s, now->request))
 static brc_status book(brc_simulation *s, const brc_occasion *now)
 {
-    BRC_TRY(brc_imposed_book(s, now->request));
+    BRC_TRY(brc_prescribed_book(s, now->request));
     return brc_turns_book(s, now->request);
 }
 static brc_status work(brc_simulation *s, const brc_occasion *now)
@@ -121,8 +91,9 @@ const brc_effect brc_held_faces_effect = {
         (const brc_field_table *const[]){&brc_held_element_fields, &brc_held_face_fields, &brc_held_load_fields, NULL}};
 const brc_effect brc_tractions_effect = {
     .name = "tractions", .in = tractions, .fields = (const brc_field_table *const[]){&brc_traction_fields, NULL}};
-const brc_effect brc_imposed_effect = {
-    .name = "imposed elements", .in = imposed, .fields = (const brc_field_table *const[]){&brc_imposed_fields, NULL}};
+const brc_effect brc_prescribed_effect = {.name = "imposed elements",
+                                          .in = prescribed,
+                                          .fields = (const brc_field_table *const[]){&brc_prescribed_fields, NULL}};
 const brc_effect brc_pushes_effect = {
     .name = "forces on elements", .in = pushed, .fields = (const brc_field_table *const[]){&brc_push_fields, NULL}};
 const brc_effect brc_turns_effect = {

@@ -51,21 +51,16 @@ static brc_status leave_isolated_out(brc_simulation *s, const brc_stage *stage, 
     return BRC_OK;
 }
 
-static double mass_of(const brc_simulation *s, int32_t e)
-{
-    return s->domain->volume[e] * s->elastic[s->material_of_element[e]].density;
-}
-
 /* Forces at factor 1 [n][3]. */
 static brc_status share_out(brc_simulation *s, const brc_stage *stage, const brc_load *load,
                             const brc_load_member *items, int32_t n, double *total)
 {
     double mass = 0;
     for (int32_t i = 0; i < n; ++i)
-        mass += mass_of(s, items[i].id);
+        mass += brc_mass_of_element(s, items[i].id);
     for (int32_t i = 0; i < n; ++i) {
         double *f = total + 3 * (int64_t)i;
-        const double part = load->share == BRC_SHARE_MASS ? mass_of(s, items[i].id) / mass : 1.0 / n;
+        const double part = load->share == BRC_SHARE_MASS ? brc_mass_of_element(s, items[i].id) / mass : 1.0 / n;
         const double *x = s->domain->position + 3 * (int64_t)items[i].id;
         const double r[3] = {x[0] - load->origin[0], x[1] - load->origin[1], x[2] - load->origin[2]};
         const double length = sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
@@ -90,48 +85,41 @@ static brc_status share_out(brc_simulation *s, const brc_stage *stage, const brc
 brc_status brc_push_create(brc_simulation *s, const brc_stage *stage, int32_t l, brc_push_load *out)
 {
     const brc_load *load = stage->loads + l;
-    brc_load_member *items = NULL;
-    int32_t n = 0, *element = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
-    BRC_TRY_OR(cleanup, leave_isolated_out(s, stage, load, items, &n));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "forces on elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "forces on elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->total_of, 3 * (int64_t)n, "forces on elements"));
-    BRC_TRY_OR(cleanup, share_out(s, stage, load, items, n, out->total_of));
+    BRC_FREED brc_load_member *items = NULL;
+    int32_t n = 0;
+    BRC_TRY(brc_load_members(s, stage, load, &items, &n));
+    BRC_TRY(leave_isolated_out(s, stage, load, items, &n));
+    BRC_LOCAL(s->context, n, int32_t, element, "forces on elements");
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "forces on elements"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->total_of, 3 * (int64_t)n, "forces on elements"));
+    BRC_TRY(share_out(s, stage, load, items, n, out->total_of));
     out->load = l;
     out->n = n;
     for (int32_t i = 0; i < n; ++i) {
         element[i] = items[i].row;
         out->element_id[i] = items[i].id;
     }
-    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_push_fields, n, out));
-    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, out->total, out->total_of, 3 * (int64_t)n));
-cleanup:
-    brc_memory_free(items);
-    brc_memory_free(element);
-    return status;
+    BRC_TRY(brc_load_fields_create(s, &brc_push_fields, n, out));
+    BRC_TRY(brc_upload_int(out->element, element, n));
+    return brc_upload_state(s, out->total, out->total_of, 3 * (int64_t)n);
 }
 
 brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken, brc_turn_load *out)
 {
     const brc_load *load = stage->loads + l;
-    brc_load_member *items = NULL;
-    int32_t n = 0, *element = NULL;
+    BRC_FREED brc_load_member *items = NULL;
+    int32_t n = 0;
     int64_t twice = 0;
-    double *flags = NULL, *direction = NULL;
-    brc_status status = BRC_OK;
     if (!s->model->turns || (stage->solver != BRC_SOLVER_DYNAMIC && !brc_solves_rotations(s->model)))
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "stage '%s': element_rotation needs elements with rotations: model cbm, or dlsm-published in a "
                         "dynamic stage",
                         stage->name);
-    BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "turned elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "turned elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flags, 3 * (int64_t)n, "turned elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &direction, 3 * (int64_t)n, "turned elements"));
+    BRC_TRY(brc_load_members(s, stage, load, &items, &n));
+    BRC_LOCAL(s->context, n, int32_t, element, "turned elements");
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "turned elements"));
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, flags, "turned elements");
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, direction, "turned elements");
     out->load = l;
     out->n = n;
     for (int32_t i = 0; i < n; ++i) {
@@ -147,20 +135,11 @@ brc_status brc_turn_create(brc_simulation *s, const brc_stage *stage, int32_t l,
         }
         twice += again;
     }
-    if (twice) {
-        status = brc_loads_refuse_twice(s, stage, load, twice);
-        goto cleanup;
-    }
-    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_turn_fields, n, out));
-    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->component, flags, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, out->direction, direction, 3 * (int64_t)n));
-cleanup:
-    brc_memory_free(items);
-    brc_memory_free(element);
-    brc_memory_free(flags);
-    brc_memory_free(direction);
-    return status;
+    if (twice) return brc_loads_refuse_twice(s, stage, load, twice);
+    BRC_TRY(brc_load_fields_create(s, &brc_turn_fields, n, out));
+    BRC_TRY(brc_upload_int(out->element, element, n));
+    BRC_TRY(brc_upload_coeff(s, out->component, flags, 3 * (int64_t)n));
+    return brc_upload_state(s, out->direction, direction, 3 * (int64_t)n);
 }
 
 void brc_element_loads_free(brc_loads *loads)

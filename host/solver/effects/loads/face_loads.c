@@ -1,15 +1,8 @@
 /* Held faces and tractions in the passes of a model. */
 #include "loads_internal.h"
 
-bool brc_loads_on_faces(const brc_simulation *s)
-{
-    return s->loads->on_faces;
-}
-
-int32_t brc_loads_n_held_faces(const brc_simulation *s)
-{
-    return s->loads->held.n_faces;
-}
+BRC_READ(bool, brc_loads_on_faces, s->loads->on_faces)
+BRC_READ(int32_t, brc_loads_n_held_faces, s->loads->held.n_faces)
 
 brc_status brc_held_faces_run(brc_simulation *s, const brc_pass *pass, const brc_force_request *r, bool reactions)
 {
@@ -51,7 +44,7 @@ brc_status brc_traction_forces_run(brc_simulation *s, const brc_pass *pass, cons
 brc_status brc_held_faces_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
 {
     const brc_held_faces *h = &s->loads->held;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
+    const int bytes = brc_state_bytes(s);
     double *held = NULL;
     if (!h->n_faces || !h->value) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &held, 3 * (int64_t)h->n_faces, "held faces"));
@@ -69,12 +62,12 @@ void brc_loads_each_prescribed(const brc_simulation *s, brc_prescribed_call call
 {
     const brc_loads *loads = s->loads;
     const brc_held_faces *h = &loads->held;
-    for (int32_t i = 0; i < loads->n_imposed; ++i)
-        for (int32_t k = 0; k < loads->imposed[i].n; ++k)
-            call(self, &(brc_prescribed){.element = loads->imposed[i].element_id[k],
+    for (int32_t i = 0; i < loads->n_prescribed; ++i)
+        for (int32_t k = 0; k < loads->prescribed[i].n; ++k)
+            call(self, &(brc_prescribed){.element = loads->prescribed[i].element_id[k],
                                          .face = -1,
-                                         .motion = loads->imposed[i].component_bits,
-                                         .by_load = loads->imposed[i].load >= 0});
+                                         .motion = loads->prescribed[i].component_bits,
+                                         .by_load = loads->prescribed[i].load >= 0});
     for (int64_t f = 0; h->n_faces > 0 && f < s->domain->n_free_faces; ++f)
         if (h->index_of_free_face[f] >= 0)
             call(self, &(brc_prescribed){.element = s->domain->free_element[f],

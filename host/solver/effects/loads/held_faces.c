@@ -88,14 +88,12 @@ brc_status brc_held_faces_places(brc_simulation *s, double **out)
 {
     const brc_held_faces *h = &s->loads->held;
     const int64_t n = s->domain->n_free_faces;
-    double *value = NULL, *place = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED double *value = NULL;
     *out = NULL;
     if (h->n_faces == 0 || !h->value) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, 3 * (int64_t)h->n_faces, "held faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "held faces"));
-    BRC_TRY_OR(cleanup, brc_download(s, h->value, brc_precision_state_bytes(brc_device_get_precision(s->device)), value,
-                                     3 * (int64_t)h->n_faces));
+    BRC_TRY(BRC_ALLOCATE(s->context, &value, 3 * (int64_t)h->n_faces, "held faces"));
+    BRC_LOCAL(s->context, 3 * n, double, place, "held faces");
+    BRC_TRY(brc_download(s, h->value, brc_state_bytes(s), value, 3 * (int64_t)h->n_faces));
     for (int64_t f = 0; f < n; ++f) {
         const int32_t at = h->index_of_free_face[f];
         for (int c = 0; c < 3; ++c)
@@ -103,10 +101,7 @@ brc_status brc_held_faces_places(brc_simulation *s, double **out)
     }
     *out = place;
     place = NULL;
-cleanup:
-    brc_memory_free(value);
-    brc_memory_free(place);
-    return status;
+    return BRC_OK;
 }
 
 /* Where the faces of a load are as its stage begins: where they were held, else where their cells put them, which holds
@@ -127,31 +122,23 @@ static brc_status create_load(brc_simulation *s, const brc_load *load, const brc
                               brc_held_load *entry)
 {
     const int64_t count = set->n_members;
-    int32_t *face = NULL, *flag = NULL;
-    double *now = NULL, *direction = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED int32_t *face = NULL;
     entry->n = (int32_t)count;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &now, 3 * count, "face positions"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &face, count, "held load"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, count, "held load"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &direction, 3 * count, "held load"));
-    if (load->kind == BRC_LOAD_FACE_VELOCITY) BRC_TRY_OR(cleanup, find_places(s, set, held, now));
+    BRC_LOCAL(s->context, 3 * count, double, now, "face positions");
+    BRC_TRY(BRC_ALLOCATE(s->context, &face, count, "held load"));
+    BRC_LOCAL(s->context, count, int32_t, flag, "held load");
+    BRC_LOCAL(s->context, 3 * count, double, direction, "held load");
+    if (load->kind == BRC_LOAD_FACE_VELOCITY) BRC_TRY(find_places(s, set, held, now));
     for (int64_t m = 0; m < count; ++m) {
         face[m] = held->index_of_free_face[set->members[m]];
         flag[m] = brc_load_components(load);
         brc_load_direction(load, s->domain->free_centroid + 3 * (int64_t)set->members[m], direction + 3 * m);
     }
-    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_held_load_fields, count, entry));
-    BRC_TRY_OR(cleanup, brc_upload_int(entry->face, face, count));
-    BRC_TRY_OR(cleanup, brc_load_upload_components(s, entry->component, flag, (int32_t)count));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, entry->base, now, 3 * count));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, entry->direction, direction, 3 * count));
-cleanup:
-    brc_memory_free(face);
-    brc_memory_free(flag);
-    brc_memory_free(now);
-    brc_memory_free(direction);
-    return status;
+    BRC_TRY(brc_load_fields_create(s, &brc_held_load_fields, count, entry));
+    BRC_TRY(brc_upload_int(entry->face, face, count));
+    BRC_TRY(brc_load_upload_components(s, entry->component, flag, (int32_t)count));
+    BRC_TRY(brc_upload_state(s, entry->base, now, 3 * count));
+    return brc_upload_state(s, entry->direction, direction, 3 * count);
 }
 
 static brc_status create_loads(brc_simulation *s, const brc_stage *stage, brc_held_faces *held)

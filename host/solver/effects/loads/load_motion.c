@@ -10,9 +10,9 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
         BRC_TRY(BRC_RUN_ON(s->loads->pass.held_prescribe, e->n, NULL, e,
                            {"factor", BRC_STATE(brc_load_factor(stage->loads + e->load, t, is_static))}));
     }
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
-        brc_imposed_load *m = s->loads->imposed + i;
-        const brc_load *load = brc_imposed_of(stage, m);
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i) {
+        brc_prescribed_load *m = s->loads->prescribed + i;
+        const brc_load *load = brc_prescribed_of(stage, m);
         BRC_TRY(BRC_RUN_ON(
             s->loads->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(brc_load_factor(load, t, is_static))},
             {"rate", BRC_STATE(is_static ? 0 : brc_load_rate(load, t))}, {"set_displacement", BRC_INT(1)}));
@@ -20,12 +20,12 @@ brc_status brc_loads_prescribe(brc_simulation *s, double t)
     return brc_turns_prescribe(s, t);
 }
 
-brc_status brc_imposed_book(brc_simulation *s, const brc_force_request *r)
+brc_status brc_prescribed_book(brc_simulation *s, const brc_force_request *r)
 {
     const brc_stage *stage = brc_simulation_stage(s) >= 0 ? brc_current_stage(s) : NULL;
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
-        brc_imposed_load *m = s->loads->imposed + i;
-        const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_imposed_of(stage, m), r->t);
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i) {
+        brc_prescribed_load *m = s->loads->prescribed + i;
+        const double rate = stage->solver == BRC_SOLVER_STATIC ? 0 : brc_load_rate(brc_prescribed_of(stage, m), r->t);
         BRC_TRY(BRC_RUN_ON(s->loads->pass.impose_book, m->n, r, m, {"rate", BRC_STATE(rate)}));
         if (r->book != BRC_BOOK_NOTHING) m->last_rate = rate;
     }
@@ -35,20 +35,20 @@ brc_status brc_imposed_book(brc_simulation *s, const brc_force_request *r)
 brc_status brc_loads_impose_velocity(brc_simulation *s, double t)
 {
     const brc_stage *stage = brc_current_stage(s);
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
-        brc_imposed_load *m = s->loads->imposed + i;
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i) {
+        brc_prescribed_load *m = s->loads->prescribed + i;
         BRC_TRY(BRC_RUN_ON(s->loads->pass.impose_motion, m->n, NULL, m, {"factor", BRC_STATE(0)},
-                           {"rate", BRC_STATE(brc_load_rate(brc_imposed_of(stage, m), t))},
+                           {"rate", BRC_STATE(brc_load_rate(brc_prescribed_of(stage, m), t))},
                            {"set_displacement", BRC_INT(0)}));
     }
     return brc_turns_prescribe(s, t);
 }
 
-brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector)
+brc_status brc_loads_zero_prescribed(brc_simulation *s, brc_buffer *vector)
 {
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
-        brc_imposed_load *m = s->loads->imposed + i;
-        BRC_TRY(BRC_RUN_ON(s->loads->pass.zero_imposed, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i) {
+        brc_prescribed_load *m = s->loads->prescribed + i;
+        BRC_TRY(BRC_RUN_ON(s->loads->pass.zero_prescribed, m->n, NULL, m, {"vector", BRC_BUF(vector)}));
     }
     return BRC_OK;
 }
@@ -73,8 +73,8 @@ brc_status brc_loads_work(brc_simulation *s, double *out)
         BRC_TRY(brc_vector_sum(s, s->loads->tractions[i].work, s->loads->tractions[i].n, &part));
         sum += part;
     }
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
-        BRC_TRY(brc_vector_sum(s, s->loads->imposed[i].work, s->loads->imposed[i].n, &part));
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i) {
+        BRC_TRY(brc_vector_sum(s, s->loads->prescribed[i].work, s->loads->prescribed[i].n, &part));
         sum += part;
     }
     for (int32_t i = 0; i < s->loads->n_pushes; ++i) {

@@ -17,8 +17,8 @@ brc_status brc_load_passes_make(brc_simulation *s)
 {
     static const brc_value_row of_traction[] = {
         {"last_factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_traction_load, last_factor)}};
-    static const brc_value_row of_imposed[] = {
-        {"last_rate", BRC_VALUE_REAL, BRC_FIELD_AT(brc_imposed_load, last_rate)}};
+    static const brc_value_row of_prescribed[] = {
+        {"last_rate", BRC_VALUE_REAL, BRC_FIELD_AT(brc_prescribed_load, last_rate)}};
     static const brc_value_row of_push[] = {{"factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, factor)},
                                             {"last_factor", BRC_VALUE_REAL, BRC_FIELD_AT(brc_push_load, last_factor)}};
     static const brc_value_row of_turn[] = {{"last_rate", BRC_VALUE_REAL, BRC_FIELD_AT(brc_turn_load, last_rate)}};
@@ -38,11 +38,11 @@ brc_status brc_load_passes_make(brc_simulation *s)
     const brc_scope traction = scope_of_load("traction", &brc_traction_fields, 1, of_traction, request);
     const brc_face_scopes faces = {&held, &state, &held_load, &traction, &p->held_prescribe, &p->held_energy};
     if (s->model->make_face_passes) BRC_TRY(s->model->make_face_passes(s, &faces));
-    const brc_scope imposed = scope_of_load("imposed elements", &brc_imposed_fields, 1, of_imposed, request);
-    BRC_TRY(BRC_PASSES(s, &imposed, {&p->impose_book, "impose_book", "rate", false}));
-    const brc_scope still = scope_of_load("imposed elements", &brc_imposed_fields, 1, of_imposed, run);
+    const brc_scope prescribed = scope_of_load("imposed elements", &brc_prescribed_fields, 1, of_prescribed, request);
+    BRC_TRY(BRC_PASSES(s, &prescribed, {&p->impose_book, "impose_book", "rate", false}));
+    const brc_scope still = scope_of_load("imposed elements", &brc_prescribed_fields, 1, of_prescribed, run);
     BRC_TRY(BRC_PASSES(s, &still, {&p->impose_motion, "impose_motion", "factor rate set_displacement", false},
-                       {&p->zero_imposed, "impose_zero", "vector", false}));
+                       {&p->zero_prescribed, "impose_zero", "vector", false}));
     const brc_scope push = scope_of_load("forces on elements", &brc_push_fields, 2, of_push, request);
     BRC_TRY(BRC_PASSES(s, &push, {&p->push_elements, "push_elements", NULL, false}));
     const brc_scope turn = scope_of_load("turned elements", &brc_turn_fields, 1, of_turn, request);

@@ -111,12 +111,9 @@ brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, con
 /* Temporary host arrays of a list of n entries, uploaded in one go. */
 brc_status brc_load_upload_components(brc_simulation *s, brc_buffer *out, const int32_t *bits, int32_t n)
 {
-    double *flags = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &flags, 3 * (int64_t)n, "component flags"));
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, flags, "component flags");
     for (int32_t i = 0; i < n; ++i)
         for (int c = 0; c < 3; ++c)
             flags[3 * (int64_t)i + c] = bits[i] >> c & 1;
-    const brc_status status = brc_upload_coeff(s, out, flags, 3 * (int64_t)n);
-    brc_memory_free(flags);
-    return status;
+    return brc_upload_coeff(s, out, flags, 3 * (int64_t)n);
 }

@@ -1,5 +1,5 @@
-/* The loads of one stage: tractions, imposed elements, and what the other files of this folder make. Lists are sorted
- * by storage row, then by id. */
+/* The loads of one stage: tractions, prescribed elements, and what the other files of this folder make. Lists are
+ * sorted by storage row, then by id. */
 #include "loads_internal.h"
 #include "../../core/loaded_faces.h"
 #include <math.h>
@@ -21,20 +21,16 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
     const brc_set *set = brc_load_find_named(s, stage, load, BRC_SET_FACES, &status);
     if (!set) return status;
     int64_t count = 0;
-    brc_loaded_face *loaded = NULL;
-    brc_load_member *items = NULL;
-    int32_t *element = NULL, *place = NULL, n = 0;
-    double *total = NULL, *moment = NULL;
-    BRC_TRY_OR(cleanup, brc_loaded_faces(s->context, s->scene, d, set, &loaded, &count));
-    if (count == 0) { /* of a part without whole faces of the set, those that its region cuts */
-        status = brc_load_refuse_empty(s, stage, load);
-        goto cleanup;
-    }
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &items, count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 2 * count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &total, 3 * count, "traction"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &moment, 9 * count, "traction"));
+    BRC_FREED brc_loaded_face *loaded = NULL;
+    int32_t n = 0;
+    BRC_TRY(brc_loaded_faces(s->context, s->scene, d, set, &loaded, &count));
+    if (count == 0) /* of a part without whole faces of the set, those that its region cuts */
+        return brc_load_refuse_empty(s, stage, load);
+    BRC_LOCAL(s->context, count, brc_load_member, items, "traction");
+    BRC_LOCAL(s->context, count, int32_t, element, "traction");
+    BRC_LOCAL(s->context, 2 * count, int32_t, place, "traction");
+    BRC_LOCAL(s->context, 3 * count, double, total, "traction");
+    BRC_LOCAL(s->context, 9 * count, double, moment, "traction");
     for (int64_t m = 0; m < count; ++m)
         items[m] = (brc_load_member){s->layout->row_of_element[d->free_element[loaded[m].face]], (int32_t)m};
     qsort(items, (size_t)count, sizeof *items, brc_load_compare_members);
@@ -63,49 +59,39 @@ static brc_status create_traction(brc_simulation *s, const brc_stage *stage, int
                 moment[9 * (n - 1) + 3 * c + k] += push[c] * (face->centroid[k] - d->position[3 * (int64_t)e + k]);
     }
     *out = (brc_traction_load){.load = l, .n = n};
-    BRC_TRY_OR(cleanup, brc_load_fields_create(s, &brc_traction_fields, n, out));
-    BRC_TRY_OR(cleanup, brc_upload_int(out->element, element, n));
-    BRC_TRY_OR(cleanup, brc_upload_int(out->place, place, 2 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->total, total, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, out->moment, moment, 9 * (int64_t)n));
-cleanup:
-    brc_memory_free(loaded);
-    brc_memory_free(items);
-    brc_memory_free(element);
-    brc_memory_free(place);
-    brc_memory_free(total);
-    brc_memory_free(moment);
-    return status;
+    BRC_TRY(brc_load_fields_create(s, &brc_traction_fields, n, out));
+    BRC_TRY(brc_upload_int(out->element, element, n));
+    BRC_TRY(brc_upload_int(out->place, place, 2 * (int64_t)n));
+    BRC_TRY(brc_upload_coeff(s, out->total, total, 3 * (int64_t)n));
+    return brc_upload_coeff(s, out->moment, moment, 9 * (int64_t)n);
 }
 
-static brc_status upload_imposed(brc_simulation *s, brc_imposed_load *out, const int32_t *row, const int32_t *bits,
-                                 const double *base)
+static brc_status upload_prescribed(brc_simulation *s, brc_prescribed_load *out, const int32_t *row,
+                                    const int32_t *bits, const double *base)
 {
-    BRC_TRY(brc_load_fields_create(s, &brc_imposed_fields, out->n, out));
+    BRC_TRY(brc_load_fields_create(s, &brc_prescribed_fields, out->n, out));
     BRC_TRY(brc_upload_int(out->element, row, out->n));
     BRC_TRY(brc_load_upload_components(s, out->component, bits, out->n));
     return brc_upload_state(s, out->base, base, 3 * (int64_t)out->n);
 }
 
 /* Imposed elements: the members of an element set, or the owners of a face set. taken: bits per element. */
-static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken,
-                                 brc_imposed_load *out)
+static brc_status create_prescribed(brc_simulation *s, const brc_stage *stage, int32_t l, int32_t *taken,
+                                    brc_prescribed_load *out)
 {
     const brc_domain *d = s->domain;
     const brc_load *load = stage->loads + l;
-    brc_status status = BRC_OK;
-    brc_load_member *items = NULL;
-    int32_t *element = NULL, *flag = NULL, n = 0;
+    BRC_FREED brc_load_member *items = NULL;
+    int32_t n = 0;
     int64_t twice = 0;
-    double *base = NULL, *direction = NULL, *now = NULL;
-    BRC_TRY_OR(cleanup, brc_load_members(s, stage, load, &items, &n));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &base, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &direction, 3 * (int64_t)n, "imposed elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &now, 3 * d->n_elements, "imposed elements"));
-    if (load->kind == BRC_LOAD_ELEMENT_VELOCITY) BRC_TRY_OR(cleanup, brc_simulation_displacement(s, now));
+    BRC_TRY(brc_load_members(s, stage, load, &items, &n));
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "imposed elements"));
+    BRC_LOCAL(s->context, n, int32_t, element, "imposed elements");
+    BRC_LOCAL(s->context, n, int32_t, flag, "imposed elements");
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, base, "imposed elements");
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, direction, "imposed elements");
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, now, "imposed elements");
+    if (load->kind == BRC_LOAD_ELEMENT_VELOCITY) BRC_TRY(brc_simulation_displacement(s, now));
     out->load = l;
     out->n = n;
     out->component_bits = brc_load_components(load);
@@ -120,36 +106,23 @@ static brc_status create_imposed(brc_simulation *s, const brc_stage *stage, int3
         for (int c = 0; c < 3; ++c)
             base[3 * (int64_t)i + c] = now[3 * e + c];
     }
-    if (twice) {
-        status = brc_loads_refuse_twice(s, stage, load, twice);
-        goto cleanup;
-    }
-    BRC_TRY_OR(cleanup, upload_imposed(s, out, element, flag, base));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, out->direction, direction, 3 * (int64_t)n));
-cleanup:
-    brc_memory_free(items);
-    brc_memory_free(element);
-    brc_memory_free(flag);
-    brc_memory_free(base);
-    brc_memory_free(direction);
-    brc_memory_free(now);
-    return status;
+    if (twice) return brc_loads_refuse_twice(s, stage, load, twice);
+    BRC_TRY(upload_prescribed(s, out, element, flag, base));
+    return brc_upload_state(s, out->direction, direction, 3 * (int64_t)n);
 }
 
-const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed)
+const brc_load *brc_prescribed_of(const brc_stage *stage, const brc_prescribed_load *prescribed)
 {
     static const brc_load still = {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT};
-    return imposed->load < 0 ? &still : stage->loads + imposed->load;
+    return prescribed->load < 0 ? &still : stage->loads + prescribed->load;
 }
 
 /* Elements that no beam holds stay where they are, in the components that no load of the stage prescribes. */
-static brc_status create_still(brc_simulation *s, const brc_stage *stage, const int32_t *taken, brc_imposed_load *out,
-                               bool *any)
+static brc_status create_still(brc_simulation *s, const brc_stage *stage, const int32_t *taken,
+                               brc_prescribed_load *out, bool *any)
 {
     const brc_domain *d = s->domain;
-    int32_t *element = NULL, *flag = NULL, n = 0;
-    double *base = NULL, *now = NULL;
-    brc_status status = BRC_OK;
+    int32_t n = 0;
     const bool meets = s->scene->has_contact && stage->solver == BRC_SOLVER_DYNAMIC;
     *any = false;
     if (!brc_has_spheres(s) || (meets && !s->scene->model.keep_isolated))
@@ -158,13 +131,13 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
         n += d->row_start[e + 1] == d->row_start[e];
     if (n == 0) return BRC_OK;
     *any = true;
-    *out = (brc_imposed_load){.load = -1, .n = n, .component_bits = 7};
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->element_id, n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &flag, n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &base, 3 * (int64_t)n, "isolated elements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &now, 3 * d->n_elements, "isolated elements"));
-    BRC_TRY_OR(cleanup, brc_simulation_displacement(s, now));
+    *out = (brc_prescribed_load){.load = -1, .n = n, .component_bits = 7};
+    BRC_TRY(BRC_ALLOCATE(s->context, &out->element_id, n, "isolated elements"));
+    BRC_LOCAL(s->context, n, int32_t, element, "isolated elements");
+    BRC_LOCAL(s->context, n, int32_t, flag, "isolated elements");
+    BRC_LOCAL(s->context, 3 * (int64_t)n, double, base, "isolated elements");
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, now, "isolated elements");
+    BRC_TRY(brc_simulation_displacement(s, now));
     n = 0;
     for (int32_t r = 0; r < s->layout->n_rows; ++r) {
         const int32_t e = s->layout->element_of_row[r];
@@ -176,13 +149,7 @@ static brc_status create_still(brc_simulation *s, const brc_stage *stage, const 
             base[3 * (int64_t)n + c] = now[3 * (int64_t)e + c];
         ++n;
     }
-    status = upload_imposed(s, out, element, flag, base);
-cleanup:
-    brc_memory_free(element);
-    brc_memory_free(flag);
-    brc_memory_free(base);
-    brc_memory_free(now);
-    return status;
+    return upload_prescribed(s, out, element, flag, base);
 }
 
 brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads *out)
@@ -194,12 +161,12 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->pushes, stage->n_loads, "forces on elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->turns, stage->n_loads, "turned elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->tractions, stage->n_loads, "tractions"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->imposed, stage->n_loads + 1, "imposed elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &out->prescribed, stage->n_loads + 1, "imposed elements"));
     for (int32_t l = 0; l < stage->n_loads; ++l) { /* go on after an error: all in one pass */
         const brc_load *load = stage->loads + l;
         status = BRC_OK;
         if (is_element_motion(load)) {
-            status = create_imposed(s, stage, l, taken, out->imposed + out->n_imposed++);
+            status = create_prescribed(s, stage, l, taken, out->prescribed + out->n_prescribed++);
         } else if (load->kind == BRC_LOAD_ELEMENT_FORCE) {
             status = brc_push_create(s, stage, l, out->pushes + out->n_pushes++);
         } else if (load->kind == BRC_LOAD_ELEMENT_ROTATION) {
@@ -217,8 +184,8 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
     }
     if (first == BRC_OK) {
         bool any;
-        status = create_still(s, stage, taken, out->imposed + out->n_imposed, &any);
-        out->n_imposed += any;
+        status = create_still(s, stage, taken, out->prescribed + out->n_prescribed, &any);
+        out->n_prescribed += any;
     }
     out->on_faces = out->held.n_faces > 0 || out->n_tractions > 0;
     brc_set_face_loads(s, out->on_faces);
@@ -240,12 +207,12 @@ void brc_loads_free(brc_loads *loads)
     brc_memory_free(h->loads);
     for (int32_t i = 0; i < loads->n_tractions; ++i)
         brc_fields_free(&brc_traction_fields, loads->tractions + i);
-    for (int32_t i = 0; i < loads->n_imposed; ++i) {
-        brc_memory_free(loads->imposed[i].element_id);
-        brc_fields_free(&brc_imposed_fields, loads->imposed + i);
+    for (int32_t i = 0; i < loads->n_prescribed; ++i) {
+        brc_memory_free(loads->prescribed[i].element_id);
+        brc_fields_free(&brc_prescribed_fields, loads->prescribed + i);
     }
     brc_memory_free(loads->tractions);
-    brc_memory_free(loads->imposed);
+    brc_memory_free(loads->prescribed);
     brc_element_loads_free(loads);
     *loads = (brc_loads){.pass = loads->pass, .work_before = loads->work_before};
 }

@@ -17,7 +17,7 @@ bool brc_load_holds_faces(const brc_load *load);
 bool brc_load_pulls_faces(const brc_load *load);
 
 /* ---- what is prescribed ---- */
-/* Put held faces and imposed elements where they are at time t of the stage (static: load factor). */
+/* Put held faces and prescribed elements where they are at time t of the stage (static: load factor). */
 brc_status brc_loads_prescribe(brc_simulation *s, double t);
 typedef struct brc_prescribed {
     int32_t element, face; /* face: of the free ones; -1: the element as a whole */

@@ -27,14 +27,14 @@ typedef struct brc_traction_load {
     double last_factor;
     brc_buffer *element, *place, *total, *moment, *last_path, *work;
 } brc_traction_load;
-typedef struct brc_imposed_load {
+typedef struct brc_prescribed_load {
     int32_t load; /* -1: elements without bonds, held still (model.keep_isolated) */
     int32_t n;
     double last_rate;
     int32_t *element_id; /* [n] host */
     int32_t component_bits;
     brc_buffer *element, *component, *base, *direction, *reaction, *last, *last_reaction, *work;
-} brc_imposed_load;
+} brc_prescribed_load;
 typedef struct brc_push_load { /* dead forces on elements (element_loads.c) */
     int32_t load;
     int32_t n;
@@ -54,17 +54,17 @@ typedef struct brc_turn_load { /* prescribed rotations of elements (element_load
 /* Passes over the lists of all loads; those of held faces are of models that have some. */
 typedef struct brc_load_passes {
     brc_pass *held_prescribe, *held_energy;
-    brc_pass *impose_motion, *impose_book, *zero_imposed, *zero_turned, *push_elements, *impose_turn, *turn_book;
+    brc_pass *impose_motion, *impose_book, *zero_prescribed, *zero_turned, *push_elements, *impose_turn, *turn_book;
 } brc_load_passes;
 /* The stage's, but for the passes. */
 struct brc_loads {
     brc_load_passes pass;
     brc_held_faces held;
-    int32_t n_tractions, n_imposed, n_pushes, n_turns;
+    int32_t n_tractions, n_prescribed, n_pushes, n_turns;
     brc_push_load *pushes;
     brc_turn_load *turns;
     brc_traction_load *tractions;
-    brc_imposed_load *imposed;
+    brc_prescribed_load *prescribed;
     bool on_faces;      /* some face is held or bears a traction */
     double work_before; /* of earlier stages [J] */
 };
@@ -74,16 +74,16 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
 void brc_loads_free(brc_loads *loads);
 /* The refusal of a load that prescribes what an earlier one of the stage does, for n elements: BRC_BAD_INPUT. */
 brc_status brc_loads_refuse_twice(brc_simulation *s, const brc_stage *stage, const brc_load *load, int64_t n);
-/* Load of an imposed list. */
-const brc_load *brc_imposed_of(const brc_stage *stage, const brc_imposed_load *imposed);
+/* Load of an prescribed list. */
+const brc_load *brc_prescribed_of(const brc_stage *stage, const brc_prescribed_load *prescribed);
 
 /* ---- load_motion.c ---- */
-/* Velocities of imposed elements at t. */
+/* Velocities of prescribed elements at t. */
 brc_status brc_loads_impose_velocity(brc_simulation *s, double t);
-/* Reactions of imposed elements, and their work; their forces are zero then. */
-brc_status brc_imposed_book(brc_simulation *s, const brc_force_request *r);
-/* Zero the imposed components of a vector; of one of rotations or torques. */
-brc_status brc_loads_zero_imposed(brc_simulation *s, brc_buffer *vector);
+/* Reactions of prescribed elements, and their work; their forces are zero then. */
+brc_status brc_prescribed_book(brc_simulation *s, const brc_force_request *r);
+/* Zero the prescribed components of a vector; of one of rotations or torques. */
+brc_status brc_loads_zero_prescribed(brc_simulation *s, brc_buffer *vector);
 brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector);
 /* Work of all loads of this stage so far [J]. */
 brc_status brc_loads_work(brc_simulation *s, double *out);
@@ -135,10 +135,10 @@ brc_status brc_turns_prescribe(brc_simulation *s, double t);
 brc_status brc_turns_begin_step(brc_simulation *s, double t0, double t1);
 
 /* ---- load_fields.c, load_passes.c ---- */
-/* Of brc_held_faces (its elements, its faces), brc_held_load, brc_traction_load, brc_imposed_load, brc_push_load,
+/* Of brc_held_faces (its elements, its faces), brc_held_load, brc_traction_load, brc_prescribed_load, brc_push_load,
  * brc_turn_load. */
 extern const brc_field_table brc_held_element_fields, brc_held_face_fields, brc_held_load_fields, brc_traction_fields,
-    brc_imposed_fields, brc_push_fields, brc_turn_fields;
+    brc_prescribed_fields, brc_push_fields, brc_turn_fields;
 /* Over the lists of s->loads, which is there. */
 brc_status brc_load_passes_make(brc_simulation *s);
 /* Room for a list of n things. */

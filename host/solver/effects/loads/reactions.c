@@ -27,45 +27,39 @@ static brc_status face_reactions(brc_simulation *s, const brc_set *set, reaction
 {
     const brc_domain *d = s->domain;
     const brc_held_faces *h = &s->loads->held;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    double *values = NULL, *u = NULL;
-    brc_status status = BRC_OK;
+    const int bytes = brc_state_bytes(s);
+    BRC_FREED double *u = NULL;
     if (set->kind != BRC_SET_FACES || h->n_faces == 0) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * (int64_t)h->n_faces, "reactions"));
-    BRC_TRY_OR(cleanup, brc_download(s, h->reaction, bytes, values, 3 * (int64_t)h->n_faces));
+    BRC_LOCAL(s->context, 3 * (int64_t)h->n_faces, double, values, "reactions");
+    BRC_TRY(brc_download(s, h->reaction, bytes, values, 3 * (int64_t)h->n_faces));
     if (sum->moments) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * set->n_members, "reactions"));
-        BRC_TRY_OR(cleanup, brc_simulation_face_displacement(s, set->n_members, set->members, u));
+        BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * set->n_members, "reactions"));
+        BRC_TRY(brc_simulation_face_displacement(s, set->n_members, set->members, u));
     }
     for (int64_t m = 0; m < set->n_members; ++m) {
         const int64_t f = set->members[m], at = h->index_of_free_face[f];
         if (at >= 0) add_reaction(sum, values + 3 * at, d->free_centroid + 3 * f, u ? u + 3 * m : NULL);
     }
-cleanup:
-    brc_memory_free(values);
-    brc_memory_free(u);
-    return status;
+    return BRC_OK;
 }
 
 static brc_status element_reactions(brc_simulation *s, const brc_set *set, reaction_sum *sum)
 {
     const brc_domain *d = s->domain;
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    double *values = NULL, *u = NULL;
-    bool *member = NULL;
-    brc_status status = BRC_OK;
-    if (s->loads->n_imposed + s->loads->n_turns == 0) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &values, 3 * d->n_elements, "reactions"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "members"));
+    const int bytes = brc_state_bytes(s);
+    BRC_FREED double *u = NULL;
+    if (s->loads->n_prescribed + s->loads->n_turns == 0) return BRC_OK;
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, values, "reactions");
+    BRC_LOCAL(s->context, d->n_elements, bool, member, "members");
     for (int64_t m = 0; m < set->n_members; ++m)
         member[set->kind == BRC_SET_ELEMENTS ? set->members[m] : d->free_element[set->members[m]]] = true;
     if (sum->moments) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "reactions"));
-        BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_displacement_of(s), u, 3));
+        BRC_TRY(BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "reactions"));
+        BRC_TRY(brc_state_from_rows(s, brc_displacement_of(s), u, 3));
     }
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i) {
-        const brc_imposed_load *m = s->loads->imposed + i;
-        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i) {
+        const brc_prescribed_load *m = s->loads->prescribed + i;
+        BRC_TRY(brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
         for (int32_t k = 0; k < m->n; ++k) {
             const int64_t e = m->element_id[k];
             if (member[e]) add_reaction(sum, values + 3 * (int64_t)k, d->position + 3 * e, u ? u + 3 * e : NULL);
@@ -73,16 +67,12 @@ static brc_status element_reactions(brc_simulation *s, const brc_set *set, react
     }
     for (int32_t i = 0; sum->moments && i < s->loads->n_turns; ++i) {
         const brc_turn_load *m = s->loads->turns + i;
-        BRC_TRY_OR(cleanup, brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
+        BRC_TRY(brc_download(s, m->reaction, bytes, values, 3 * (int64_t)m->n));
         for (int32_t k = 0; k < m->n; ++k)
             for (int c = 0; member[m->element_id[k]] && c < 3; ++c)
                 sum->moment[c] += values[3 * (int64_t)k + c];
     }
-cleanup:
-    brc_memory_free(values);
-    brc_memory_free(u);
-    brc_memory_free(member);
-    return status;
+    return BRC_OK;
 }
 
 static brc_status reactions(brc_simulation *s, int32_t set, reaction_sum *sum)

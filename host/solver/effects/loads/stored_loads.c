@@ -23,42 +23,33 @@ static brc_status walk_number(brc_state_store *store, const char *kind, int32_t 
 static brc_status walk_held(brc_simulation *s, brc_state_store *store)
 {
     const brc_held_faces *h = &s->loads->held;
-    int32_t *face = NULL;
-    brc_status status = BRC_OK;
     if (h->n_faces == 0) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &face, h->n_faces, "held faces"));
+    BRC_LOCAL(s->context, h->n_faces, int32_t, face, "held faces");
     for (int64_t f = 0; f < s->domain->n_free_faces; ++f)
         if (h->index_of_free_face[f] >= 0) face[h->index_of_free_face[f]] = (int32_t)f;
-    BRC_TRY_OR(cleanup, walk_list(s, store, "held", 0, &brc_held_face_fields, h, h->n_faces, face));
+    BRC_TRY(walk_list(s, store, "held", 0, &brc_held_face_fields, h, h->n_faces, face));
     for (int32_t i = 0; i < h->n_loads; ++i) /* in the order of the set's members */
-        BRC_TRY_OR(cleanup, walk_list(s, store, "held", i, &brc_held_load_fields, h->loads + i, h->loads[i].n, NULL));
-cleanup:
-    brc_memory_free(face);
-    return status;
+        BRC_TRY(walk_list(s, store, "held", i, &brc_held_load_fields, h->loads + i, h->loads[i].n, NULL));
+    return BRC_OK;
 }
 
 static brc_status walk_traction(brc_simulation *s, brc_state_store *store, int32_t i)
 {
     brc_traction_load *t = s->loads->tractions + i;
-    int32_t *element = NULL;
-    brc_status status = BRC_OK;
     BRC_TRY(walk_number(store, "traction", i, "last_factor", &t->last_factor));
     if (t->n == 0) return BRC_OK;
     if (store->field) return walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, NULL);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &element, t->n, "elements under traction"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(t->element, 0, element, 4 * (int64_t)t->n));
+    BRC_LOCAL(s->context, t->n, int32_t, element, "elements under traction");
+    BRC_TRY(brc_buffer_read(t->element, 0, element, 4 * (int64_t)t->n));
     for (int32_t k = 0; k < t->n; ++k)
         element[k] = s->layout->element_of_row[element[k]];
-    status = walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, element);
-cleanup:
-    brc_memory_free(element);
-    return status;
+    return walk_list(s, store, "traction", i, &brc_traction_fields, t, t->n, element);
 }
 
-static brc_status walk_imposed(brc_simulation *s, brc_state_store *store, int32_t i)
+static brc_status walk_prescribed(brc_simulation *s, brc_state_store *store, int32_t i)
 {
-    brc_imposed_load *m = s->loads->imposed + i;
-    BRC_TRY(walk_list(s, store, "imposed", i, &brc_imposed_fields, m, m->n, m->element_id));
+    brc_prescribed_load *m = s->loads->prescribed + i;
+    BRC_TRY(walk_list(s, store, "imposed", i, &brc_prescribed_fields, m, m->n, m->element_id));
     return walk_number(store, "imposed", i, "last_rate", &m->last_rate);
 }
 
@@ -85,8 +76,8 @@ brc_status brc_loads_store(brc_simulation *s, brc_state_store *store)
     BRC_TRY(walk_held(s, store));
     for (int32_t i = 0; i < s->loads->n_tractions; ++i)
         BRC_TRY(walk_traction(s, store, i));
-    for (int32_t i = 0; i < s->loads->n_imposed; ++i)
-        BRC_TRY(walk_imposed(s, store, i));
+    for (int32_t i = 0; i < s->loads->n_prescribed; ++i)
+        BRC_TRY(walk_prescribed(s, store, i));
     for (int32_t i = 0; i < s->loads->n_pushes; ++i)
         BRC_TRY(walk_push(s, store, i));
     for (int32_t i = 0; i < s->loads->n_turns; ++i)

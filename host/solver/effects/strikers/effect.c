@@ -2,18 +2,9 @@
 #include "../effect.h"
 #include "strikers_internal.h"
 
-static bool in(const brc_wants *w)
-{
-    return w->scene->n_strikers > 0;
-}
-static brc_status advance(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_strikers_advance(s, now->kick, now->drift, now->extra, now->numerical);
-}
-static brc_status book(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_strikers_book(s, now->request->book);
-}
+BRC_WANTED(in, w->scene->n_strikers > 0)
+BRC_CALLED(advance, brc_strikers_advance(s, now->kick, now->drift, now->extra, now->numerical))
+BRC_CALLED(book, brc_strikers_book(s, now->request->book))
 static brc_status energies(brc_simulation *s, const brc_occasion *now)
 {
     brc_striker_energies e;
@@ -24,10 +15,7 @@ static brc_status energies(brc_simulation *s, const brc_occasion *now)
     now->ledger->numerical += e.numerical;
     return BRC_OK;
 }
-static brc_status store(brc_simulation *s, const brc_occasion *now)
-{
-    return brc_strikers_store_state(s, now->store);
-}
+BRC_CALLED(store, brc_strikers_store_state(s, now->store))
 
 static brc_status kicked(brc_simulation *s, const brc_occasion *now)
 {

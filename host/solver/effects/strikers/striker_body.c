@@ -193,7 +193,7 @@ static brc_status make_solid(brc_simulation *s, int32_t i)
 {
     const brc_striker *striker = s->scene->strikers + i;
     brc_striker_body *body = &s->strikers->body[i];
-    brc_convex pieces = {0};
+    BRC_ENDS_WITH(brc_convex_free) brc_convex pieces = {0};
     brc_rigid rigid;
     double m[3][3];
     brc_pose_matrix(striker->rotation, m);
@@ -205,15 +205,11 @@ static brc_status make_solid(brc_simulation *s, int32_t i)
                         "striker '%s': its shape cannot be made (one that is not convex is filled with %d cells; more "
                         "facets: more cells)",
                         striker->name, PIECES_PER_FACET * (int)striker->facets);
-    brc_status status = BRC_OK;
     put_in_place(striker, &rigid, turned, body);
-    BRC_TRY_OR(cleanup, set_mass(s, striker, body));
-    BRC_TRY_OR(cleanup, add_pieces(s, i, striker->shape.kind == BRC_SHAPE_SPHERE ? BRC_PIECE_SPHERE : BRC_PIECE_CONVEX,
-                                   &pieces, turned));
-    status = make_surface(s, &pieces, turned, &body->surface);
-cleanup:
-    brc_convex_free(&pieces);
-    return status;
+    BRC_TRY(set_mass(s, striker, body));
+    BRC_TRY(add_pieces(s, i, striker->shape.kind == BRC_SHAPE_SPHERE ? BRC_PIECE_SPHERE : BRC_PIECE_CONVEX, &pieces,
+                       turned));
+    return make_surface(s, &pieces, turned, &body->surface);
 }
 
 brc_status brc_striker_body_make(brc_simulation *s, int32_t i)

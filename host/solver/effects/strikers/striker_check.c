@@ -1,6 +1,7 @@
 /* What is wrong, or looks wrong, with strikers before a run begins: they stand in a body, are quicker than sound, or
  * come near nothing. */
 #include "strikers_internal.h"
+#include "../../core/sym3.h"
 #include <math.h>
 #include <string.h>
 
@@ -148,10 +149,7 @@ static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t pie
     }
 }
 
-double brc_striker_refused_depth(const brc_simulation *s)
-{
-    return refused_depth * s->domain->quality.mean_spacing;
-}
+BRC_READ(double, brc_striker_refused_depth, refused_depth * s->domain->quality.mean_spacing)
 double brc_striker_warned_depth(const brc_simulation *s)
 {
     return (s->domain->element_kind == BRC_ELEMENT_SPHERE ? warned_depth_of_spheres : warned_depth) *
@@ -197,11 +195,6 @@ static brc_status check_overlap(brc_simulation *s, int32_t i)
 
 /* ---- speeds and ways ---- */
 
-static double length(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
 /* The largest value of its table; 1 without. */
 static double largest_factor(const brc_striker *striker)
 {
@@ -221,7 +214,7 @@ static double speed_of(const brc_simulation *s, int32_t i)
     for (int32_t p = 0; p < s->strikers->convex.n; ++p)
         if (s->strikers->piece_striker[p] == i && !striker->is_plane)
             reach = fmax(reach, s->strikers->convex.radius[p]);
-    return factor * (length(striker->velocity) + reach * length(striker->spin));
+    return factor * (brc_norm3(striker->velocity) + reach * brc_norm3(striker->spin));
 }
 
 /* The largest speed of a field of velocities in the box around the bodies, which it has in a corner [m/s]. */
@@ -235,7 +228,7 @@ static double speed_of_field(const brc_initial *field, const double bounds[2][3]
             for (int j = 0; j < 3; ++j)
                 v[i] += field->gradient[i][j] * (bounds[corner >> j & 1][j] - field->origin[j]);
         }
-        most = fmax(most, length(v));
+        most = fmax(most, brc_norm3(v));
     }
     return most;
 }
@@ -252,11 +245,11 @@ static double speed_of_bodies(const brc_simulation *s)
             const brc_initial *field = stage->initials + f;
             if (field->kind == BRC_INITIAL_VELOCITY || field->kind == BRC_INITIAL_RANDOM)
                 most = fmax(most, speed_of_field(field, b));
-            if (field->kind == BRC_INITIAL_SPIN) most = fmax(most, length(field->value) * diagonal);
+            if (field->kind == BRC_INITIAL_SPIN) most = fmax(most, brc_norm3(field->value) * diagonal);
         }
         for (int32_t l = 0; l < stage->n_loads; ++l)
             if (stage->loads[l].kind == BRC_LOAD_FACE_VELOCITY || stage->loads[l].kind == BRC_LOAD_ELEMENT_VELOCITY)
-                most = fmax(most, length(stage->loads[l].value));
+                most = fmax(most, brc_norm3(stage->loads[l].value));
     }
     return most;
 }
@@ -297,12 +290,12 @@ static double speed_between_bodies(const brc_simulation *s)
         for (int32_t f = 0; f < stage->n_initials; ++f) {
             const brc_initial *one = stage->initials + f;
             if (one->kind != BRC_INITIAL_VELOCITY || !one->set[0]) continue;
-            most = fmax(most, length(one->value));
+            most = fmax(most, brc_norm3(one->value));
             for (int32_t g = 0; g < f; ++g) {
                 const brc_initial *other = stage->initials + g;
                 const double apart[3] = {one->value[0] - other->value[0], one->value[1] - other->value[1],
                                          one->value[2] - other->value[2]};
-                if (other->kind == BRC_INITIAL_VELOCITY && other->set[0]) most = fmax(most, length(apart));
+                if (other->kind == BRC_INITIAL_VELOCITY && other->set[0]) most = fmax(most, brc_norm3(apart));
             }
         }
     }
@@ -332,10 +325,10 @@ static void check_rail(const brc_simulation *s, int32_t i)
             brc_log(s->context, BRC_LOG_WARNING,
                     "striker '%s': its velocity of %.4g m/s along %c is left out, as `hold` lets it not move along %c",
                     striker->name, striker->velocity[c], axis[c], axis[c]);
-    if (striker->held_rotation && length(striker->spin) > 0)
+    if (striker->held_rotation && brc_norm3(striker->spin) > 0)
         brc_log(s->context, BRC_LOG_WARNING,
                 "striker '%s': its spin of %.4g rad/s is left out, as `hold` lets it not turn", striker->name,
-                length(striker->spin));
+                brc_norm3(striker->spin));
 }
 
 /* Extent of striker i along its thinnest face's normal [m]; HUGE_VAL of planes, and of shapes of so many faces that
@@ -423,8 +416,8 @@ static void check_reach(const brc_simulation *s, int32_t i, double bodies)
     const brc_striker *striker = s->scene->strikers + i;
     const double time = duration_of(s->scene), gap = gap_of(s, i);
     const double pull =
-        (s->scene->has_gravity ? length(s->scene->gravity) : 0) +
-        (striker->pushed ? largest_factor(striker) * length(striker->force) / s->strikers->body[i].mass : 0);
+        (s->scene->has_gravity ? brc_norm3(s->scene->gravity) : 0) +
+        (striker->pushed ? largest_factor(striker) * brc_norm3(striker->force) / s->strikers->body[i].mass : 0);
     const double way = (speed_of(s, i) + bodies) * time + 0.5 * pull * time * time;
     if (s->scene->has_fracture || !isfinite(time) || !(gap > 1.5 * way)) return;
     brc_log(s->context, BRC_LOG_WARNING,

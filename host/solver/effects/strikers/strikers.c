@@ -33,10 +33,7 @@ static int32_t freedom_of(const brc_striker *striker)
 
 /* ---- making ---- */
 
-static bool strikers(const brc_wants *w)
-{
-    return w->scene->n_strikers > 0;
-}
+BRC_WANTED(strikers, w->scene->n_strikers > 0)
 static bool pushing(const brc_wants *w)
 {
     for (int32_t i = 0; i < w->scene->n_strikers; ++i)
@@ -48,32 +45,25 @@ static bool pushing(const brc_wants *w)
 static const brc_field_row rows[] = {
     {"striker_pose", brc_each_striker, 12, BRC_FIELD_STATE, NULL, AT(pose), "poses of strikers", "m, -",
      BRC_KEPT("strikers.pose", BRC_KEEP_ALL)},
-    {"motion", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(motion), "velocities of strikers", "m/s, rad/s",
-     BRC_KEPT("strikers.motion", BRC_KEEP_ALL)},
-    {"load", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(load), "forces on strikers", "N, N m",
-     BRC_KEPT("strikers.load", BRC_KEEP_ALL)},
-    {"displacement", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(displacement), "displacements of strikers", "m",
-     BRC_KEPT("strikers.displacement", BRC_KEEP_ALL)},
-    {"orientation", brc_each_striker, 4, BRC_FIELD_STATE, NULL, AT(orientation), "orientations of strikers", "-",
-     BRC_KEPT("strikers.orientation", BRC_KEEP_ALL)},
-    {"momentum", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(momentum), "angular momenta of strikers", "kg m^2/s",
-     BRC_KEPT("strikers.momentum", BRC_KEEP_ALL)},
-    {"freedom", brc_each_striker, 1, BRC_FIELD_INT, NULL, AT(freedom), "freedoms of strikers", "-", BRC_NOT_KEPT},
-    {"mass", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(mass), "masses of strikers", "kg", BRC_NOT_KEPT},
-    {"inertia", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(inertia), "inertia of strikers", "kg m^2", BRC_NOT_KEPT},
-    {"centre", brc_each_striker, 3, BRC_FIELD_STATE, NULL, AT(centre), "centres of strikers", "m", BRC_NOT_KEPT},
-    {"moved", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(moved), "moves of strikers", "m, rad",
-     BRC_KEPT("strikers.moved", BRC_KEEP_ALL)},
-    {"last", brc_each_striker, 6, BRC_FIELD_STATE, NULL, AT(last), "last forces on strikers", "N, N m",
-     BRC_KEPT("strikers.last", BRC_KEEP_ALL)},
-    {"work", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(work), "work of strikers", "J",
-     BRC_KEPT("strikers.work", BRC_KEEP_ALL)},
-    {"lost", brc_each_striker, 1, BRC_FIELD_STATE, NULL, AT(lost), "numerical dissipation of strikers", "J",
-     BRC_KEPT("strikers.lost", BRC_KEEP_ALL)},
-    {"push", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(push), "prescribed forces on strikers", "N",
-     BRC_KEPT("strikers.push", BRC_KEEP_ALL)},
-    {"pushed", brc_each_striker, 3, BRC_FIELD_STATE, pushing, AT(pushed), "last prescribed forces on strikers", "N",
-     BRC_KEPT("strikers.pushed", BRC_KEEP_ALL)},
+    BRC_KEPT_FIELD(motion, brc_each_striker, 6, STATE, NULL, "velocities of strikers", "m/s, rad/s", "strikers.motion"),
+    BRC_KEPT_FIELD(load, brc_each_striker, 6, STATE, NULL, "forces on strikers", "N, N m", "strikers.load"),
+    BRC_KEPT_FIELD(displacement, brc_each_striker, 3, STATE, NULL, "displacements of strikers", "m",
+                   "strikers.displacement"),
+    BRC_KEPT_FIELD(orientation, brc_each_striker, 4, STATE, NULL, "orientations of strikers", "-",
+                   "strikers.orientation"),
+    BRC_KEPT_FIELD(momentum, brc_each_striker, 3, STATE, NULL, "angular momenta of strikers", "kg m^2/s",
+                   "strikers.momentum"),
+    BRC_FIELD(freedom, brc_each_striker, 1, INT, NULL, "freedoms of strikers", "-"),
+    BRC_FIELD(mass, brc_each_striker, 1, STATE, NULL, "masses of strikers", "kg"),
+    BRC_FIELD(inertia, brc_each_striker, 6, STATE, NULL, "inertia of strikers", "kg m^2"),
+    BRC_FIELD(centre, brc_each_striker, 3, STATE, NULL, "centres of strikers", "m"),
+    BRC_KEPT_FIELD(moved, brc_each_striker, 6, STATE, NULL, "moves of strikers", "m, rad", "strikers.moved"),
+    BRC_KEPT_FIELD(last, brc_each_striker, 6, STATE, NULL, "last forces on strikers", "N, N m", "strikers.last"),
+    BRC_KEPT_FIELD(work, brc_each_striker, 1, STATE, NULL, "work of strikers", "J", "strikers.work"),
+    BRC_KEPT_FIELD(lost, brc_each_striker, 1, STATE, NULL, "numerical dissipation of strikers", "J", "strikers.lost"),
+    BRC_KEPT_FIELD(push, brc_each_striker, 3, STATE, pushing, "prescribed forces on strikers", "N", "strikers.push"),
+    BRC_KEPT_FIELD(pushed, brc_each_striker, 3, STATE, pushing, "last prescribed forces on strikers", "N",
+                   "strikers.pushed"),
 };
 BRC_FIELD_TABLE(brc_striker_fields, "strikers", BRC_LIFE_RUN, strikers, rows);
 
@@ -90,11 +80,8 @@ static brc_status upload_start(brc_simulation *s)
 {
     brc_strikers *t = s->strikers;
     const int32_t n = t->n;
-    double *room = NULL;
-    int32_t *freedom = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &room, 35 * (int64_t)n, "strikers"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &freedom, n, "strikers"));
+    BRC_LOCAL(s->context, 35 * (int64_t)n, double, room, "strikers");
+    BRC_LOCAL(s->context, n, int32_t, freedom, "strikers");
     double *upright = room, *motion = upright + 4 * n, *momentum = motion + 6 * n, *mass = momentum + 3 * n,
            *inertia = mass + n, *centre = inertia + 6 * n, *pose = centre + 3 * n;
     for (int32_t i = 0; i < n; ++i) {
@@ -115,19 +102,15 @@ static brc_status upload_start(brc_simulation *s)
         }
         times(t->body[i].inertia, motion + 6 * i + 3, momentum + 3 * i);
     }
-    BRC_TRY_OR(cleanup, brc_fields_create(s->device, &brc_striker_fields, &s->wants, t));
-    BRC_TRY_OR(cleanup, brc_upload_int(t->freedom, freedom, n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->orientation, upright, 4 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->pose, pose, 12 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->centre, centre, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->motion, motion, 6 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->momentum, momentum, 3 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->mass, mass, 1 * (int64_t)n));
-    BRC_TRY_OR(cleanup, brc_upload_state(s, t->inertia, inertia, 6 * (int64_t)n));
-cleanup:
-    brc_memory_free(room);
-    brc_memory_free(freedom);
-    return status;
+    BRC_TRY(brc_fields_create(s->device, &brc_striker_fields, &s->wants, t));
+    BRC_TRY(brc_upload_int(t->freedom, freedom, n));
+    BRC_TRY(brc_upload_state(s, t->orientation, upright, 4 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->pose, pose, 12 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->centre, centre, 3 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->motion, motion, 6 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->momentum, momentum, 3 * (int64_t)n));
+    BRC_TRY(brc_upload_state(s, t->mass, mass, 1 * (int64_t)n));
+    return brc_upload_state(s, t->inertia, inertia, 6 * (int64_t)n);
 }
 
 brc_status brc_strikers_create(brc_simulation *s)
@@ -303,10 +286,7 @@ brc_status brc_strikers_store_state(brc_simulation *s, brc_state_store *store)
 
 /* ---- asking ---- */
 
-int32_t brc_simulation_n_strikers(const brc_simulation *s)
-{
-    return s->strikers ? s->strikers->n : 0;
-}
+BRC_READ(int32_t, brc_simulation_n_strikers, s->strikers ? s->strikers->n : 0)
 const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int32_t striker)
 {
     return s->strikers->body + striker;
@@ -315,8 +295,7 @@ const brc_striker_body *brc_simulation_striker_body(const brc_simulation *s, int
 /* `width` numbers of one striker. */
 static brc_status read_one(brc_simulation *s, brc_buffer *buffer, int32_t striker, int width, double *out)
 {
-    if (brc_precision_state_bytes(brc_device_get_precision(s->device)) == 8)
-        return brc_buffer_read(buffer, (int64_t)striker * width * 8, out, (int64_t)width * 8);
+    if (brc_state_bytes(s) == 8) return brc_buffer_read(buffer, (int64_t)striker * width * 8, out, (int64_t)width * 8);
     float narrow[6];
     BRC_TRY(brc_buffer_read(buffer, (int64_t)striker * width * 4, narrow, (int64_t)width * 4));
     for (int c = 0; c < width; ++c)

@@ -14,20 +14,15 @@ struct brc_beam_closure {
 };
 typedef struct brc_beam_closure beam_closure;
 
-static bool softens(const brc_wants *w)
-{
-    return w->softens;
-}
+BRC_WANTED(softens, w->softens)
 
 #define AT(member) BRC_FIELD_AT(beam_closure, member)
 static const brc_field_row rows[] = {
-    {"other", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(other), "broken beams", "-", BRC_NOT_KEPT},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "broken beams", "-", BRC_NOT_KEPT},
-    {"bears", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(bears), "broken beams", "-",
-     BRC_KEPT("closure.bears", BRC_KEEP_ALL)},
-    {"lean", brc_each_entry, LEAN, BRC_FIELD_COEFF, softens, AT(lean), "broken beams", "-",
-     BRC_KEPT("closure.lean", BRC_KEEP_ALL)},
-    {"rubs", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(rubs), "broken beams", "-", BRC_NOT_KEPT},
+    BRC_FIELD(other, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
+    BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
+    BRC_KEPT_FIELD(bears, brc_each_entry, 1, INT, NULL, "broken beams", "-", "closure.bears"),
+    BRC_KEPT_FIELD(lean, brc_each_entry, LEAN, COEFF, softens, "broken beams", "-", "closure.lean"),
+    BRC_FIELD(rubs, brc_each_group, 1, INT, NULL, "broken beams", "-"),
 };
 BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_lost_beams, rows);
 
@@ -52,22 +47,16 @@ static brc_status upload_bonds(brc_simulation *s, beam_closure *f)
 {
     const brc_layout *layout = s->layout;
     const int64_t slice = layout->slice, n_entries = layout->n_slots * slice;
-    int32_t *row = NULL, *twin = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &row, n_entries, "broken beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "broken beams"));
-    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, s->domain, twin));
+    BRC_LOCAL(s->context, n_entries, int32_t, row, "broken beams");
+    BRC_LOCAL(s->context, n_entries, int32_t, twin, "broken beams");
+    BRC_TRY(brc_layout_twins(s->context, layout, s->domain, twin));
     for (int32_t k = 0; k < layout->n_slices; ++k)
         for (int64_t at = layout->slot_start[k] * slice; at < layout->slot_start[k + 1] * slice; ++at) {
             const int32_t h = layout->half_edge[at], home = (int32_t)(k * slice + at % slice);
             row[at] = h >= 0 ? layout->row_of_element[s->domain->neighbour[h]] : home;
         }
-    BRC_TRY_OR(cleanup, brc_upload_int(f->other, row, n_entries));
-    status = brc_upload_int(f->twin, twin, n_entries);
-cleanup:
-    brc_memory_free(row);
-    brc_memory_free(twin);
-    return status;
+    BRC_TRY(brc_upload_int(f->other, row, n_entries));
+    return brc_upload_int(f->twin, twin, n_entries);
 }
 
 static brc_status make_passes(brc_simulation *s, beam_closure *f)
@@ -155,20 +144,14 @@ static brc_status find_rubs(brc_simulation *s, const beam_closure *f)
 {
     const int64_t slice = s->layout->slice, n_entries = s->layout->n_slots * slice,
                   width = s->layout->n_rows / s->n_groups;
-    int32_t *bears = NULL, *rubs = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &bears, n_entries, "broken beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rubs, s->n_groups, "broken beams"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(f->bears, 0, bears, 4 * n_entries));
+    BRC_LOCAL(s->context, n_entries, int32_t, bears, "broken beams");
+    BRC_LOCAL(s->context, s->n_groups, int32_t, rubs, "broken beams");
+    BRC_TRY(brc_buffer_read(f->bears, 0, bears, 4 * n_entries));
     for (int32_t block = 0; block < s->layout->n_slices; ++block)
         for (int64_t k = (int64_t)s->layout->slot_start[block] * slice;
              k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
             if (bears[k]) rubs[(block * slice + k % slice) / width] = 1;
-    status = brc_buffer_write(f->rubs, 0, rubs, 4 * (int64_t)s->n_groups);
-cleanup:
-    brc_memory_free(bears);
-    brc_memory_free(rubs);
-    return status;
+    return brc_buffer_write(f->rubs, 0, rubs, 4 * (int64_t)s->n_groups);
 }
 
 brc_status brc_beam_closure_store_state(brc_simulation *s, brc_state_store *store)

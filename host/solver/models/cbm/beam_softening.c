@@ -19,21 +19,16 @@ struct brc_beam_softening {
 };
 typedef struct brc_beam_softening beam_softening;
 
-static bool softens(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_spheres(w) && w->softens;
-}
+BRC_WANTED(softens, w->scene->has_fracture &&brc_wants_spheres(w) && w->softens)
 
 #define AT(member) BRC_FIELD_AT(beam_softening, member)
 static const brc_field_row rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of beams", "-",
-     BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open beams", "-",
-     BRC_KEPT("softening.open", BRC_KEEP_ALL)},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of beams", "-", BRC_NOT_KEPT},
-    {"twin", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(twin), "cohesion of beams", "-", BRC_NOT_KEPT},
-    {"active", brc_each_group, 1, BRC_FIELD_INT, NULL, AT(active), "open beams", "-", BRC_NOT_KEPT},
-    {"touched", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(touched), "open beams", "-", BRC_NOT_KEPT},
+    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of beams", "-", "softening.crack"),
+    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open beams", "-", "softening.open"),
+    BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
+    BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
+    BRC_FIELD(active, brc_each_group, 1, INT, NULL, "open beams", "-"),
+    BRC_FIELD(touched, brc_each_row, 1, INT, NULL, "open beams", "-"),
 };
 BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, softens, rows);
 
@@ -41,10 +36,7 @@ static beam_softening *softening_of(const brc_simulation *s)
 {
     return brc_cbm_own_of(s)->softening;
 }
-bool brc_beam_softening_is_on(const brc_simulation *s)
-{
-    return softening_of(s) != NULL;
-}
+BRC_READ(bool, brc_beam_softening_is_on, softening_of(s) != NULL)
 
 static brc_status make_passes(brc_simulation *s, beam_softening *f)
 {
@@ -102,15 +94,12 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
-    double *crack = NULL, *area = NULL;
-    int32_t *lead = NULL, *twin = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lead, n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &twin, n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &area, d->n_bonds, "areas of beams"));
-    BRC_TRY_OR(cleanup, brc_bond_areas_closed(s->context, d, area));
-    BRC_TRY_OR(cleanup, brc_layout_twins(s->context, layout, d, twin));
+    BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of beams");
+    BRC_LOCAL(s->context, n_entries, int32_t, lead, "cohesion of beams");
+    BRC_LOCAL(s->context, n_entries, int32_t, twin, "cohesion of beams");
+    BRC_LOCAL(s->context, d->n_bonds, double, area, "areas of beams");
+    BRC_TRY(brc_bond_areas_closed(s->context, d, area));
+    BRC_TRY(brc_layout_twins(s->context, layout, d, twin));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
@@ -125,15 +114,9 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_int(f->lead, lead, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_int(f->twin, twin, n_entries));
-cleanup:
-    brc_memory_free(crack);
-    brc_memory_free(area);
-    brc_memory_free(lead);
-    brc_memory_free(twin);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
+    BRC_TRY(brc_upload_int(f->lead, lead, n_entries));
+    return brc_upload_int(f->twin, twin, n_entries);
 }
 
 brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *strengths)
@@ -214,23 +197,16 @@ static brc_status find_touched(brc_simulation *s, const beam_softening *f)
 {
     const int64_t slice = s->layout->slice, n_rows = s->layout->n_rows, n_entries = s->layout->n_slots * slice,
                   width = n_rows / s->n_groups;
-    int32_t *open = NULL, *active = NULL, *touched = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &active, s->n_groups, "open beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &touched, n_rows, "open beams"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    BRC_LOCAL(s->context, n_entries, int32_t, open, "open beams");
+    BRC_LOCAL(s->context, s->n_groups, int32_t, active, "open beams");
+    BRC_LOCAL(s->context, n_rows, int32_t, touched, "open beams");
+    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
     for (int32_t block = 0; block < s->layout->n_slices; ++block)
         for (int64_t k = (int64_t)s->layout->slot_start[block] * slice;
              k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
             if (open[k] != WHOLE) touched[block * slice + k % slice] = active[(block * slice + k % slice) / width] = 1;
-    BRC_TRY_OR(cleanup, brc_buffer_write(f->touched, 0, touched, 4 * n_rows));
-    status = brc_buffer_write(f->active, 0, active, 4 * (int64_t)s->n_groups);
-cleanup:
-    brc_memory_free(open);
-    brc_memory_free(active);
-    brc_memory_free(touched);
-    return status;
+    BRC_TRY(brc_buffer_write(f->touched, 0, touched, 4 * n_rows));
+    return brc_buffer_write(f->active, 0, active, 4 * (int64_t)s->n_groups);
 }
 
 brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *store)
@@ -248,16 +224,12 @@ brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *ou
     const beam_softening *f = softening_of(s);
     const brc_layout *layout = s->layout;
     const int64_t n_entries = layout->n_slots * layout->slice;
-    double *crack = NULL;
-    int32_t *open = NULL;
-    brc_status status = BRC_OK;
     *out = (brc_softening_report){0};
     if (!f) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "cohesion of beams"));
-    BRC_TRY_OR(cleanup, brc_download(s, f->crack, brc_precision_coeff_bytes(brc_device_get_precision(s->device)), crack,
-                                     WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of beams");
+    BRC_LOCAL(s->context, n_entries, int32_t, open, "cohesion of beams");
+    BRC_TRY(brc_download(s, f->crack, brc_coeff_bytes(s), crack, WIDTH * n_entries));
+    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
@@ -272,8 +244,5 @@ brc_status brc_beam_softening_report(brc_simulation *s, brc_softening_report *ou
         out->n_ended += 1;
         out->area += own[TILT * layout->slice] / own[PER_AREA * layout->slice];
     }
-cleanup:
-    brc_memory_free(crack);
-    brc_memory_free(open);
-    return status;
+    return BRC_OK;
 }

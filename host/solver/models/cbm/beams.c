@@ -82,34 +82,30 @@ static brc_status refuse_isolated(brc_simulation *s)
 brc_status brc_beams_create(brc_simulation *s)
 {
     const brc_scene *scene = s->scene;
-    brc_status status = BRC_OK;
-    body_radii *radii = NULL;
+    BRC_FREED body_radii *radii = NULL;
     if (s->domain->element_kind != BRC_ELEMENT_SPHERE)
         return BRC_FAIL(s->context, BRC_BAD_INPUT,
                         "model cbm needs spheres joined by beams, the bodies are cells; add `beams: {coordination: 8}` "
                         "and a fill with radii "
                         "to each body");
     BRC_TRY(refuse_isolated(s));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &radii, scene->n_bodies, "radii of bodies"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->beam,
-                                     (int64_t)scene->n_bodies * scene->n_materials, "beams"));
-    BRC_TRY_OR(cleanup, find_radii(s, radii));
+    BRC_TRY(BRC_ALLOCATE(s->context, &radii, scene->n_bodies, "radii of bodies"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->beam, (int64_t)scene->n_bodies * scene->n_materials, "beams"));
+    BRC_TRY(find_radii(s, radii));
     for (int32_t b = 0; b < scene->n_bodies; ++b)
         for (int32_t m = 0; m < scene->n_materials; ++m) {
             brc_beam *beam = &brc_cbm_own_of(s)->beam[b * scene->n_materials + m];
             double ratio, young;
             if (!brc_body_uses(&scene->bodies[b], m) || radii[b].n == 0)
                 continue; /* a material that the body lacks may be out of reach of its law */
-            BRC_TRY_OR(cleanup, micro_parameters(s, &scene->materials[m], b, &radii[b], &ratio, &young));
+            BRC_TRY(micro_parameters(s, &scene->materials[m], b, &radii[b], &ratio, &young));
             beam->radius = ratio * radii[b].sum / (double)radii[b].n;
             const double square = beam->radius * beam->radius, bending = M_PI * square * square / 4;
             beam->axial = young * M_PI * square;
             beam->bend = 2 * young * bending;
             beam->twist = young / (2 * (1 + scene->model.beam_poisson)) * 2 * bending;
         }
-cleanup:
-    brc_memory_free(radii);
-    return status;
+    return BRC_OK;
 }
 
 const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e)
@@ -122,7 +118,7 @@ brc_status brc_beams_upload(brc_simulation *s)
 {
     if (!brc_device_has_many_materials(s->device)) return BRC_OK;
     const brc_layout *layout = s->layout;
-    double *rows = NULL;
+    BRC_FREED double *rows = NULL;
     brc_status status = BRC_ALLOCATE(s->context, &rows, 3 * (int64_t)layout->n_rows, "beams of elements");
     for (int32_t r = 0; status == BRC_OK && r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
@@ -131,14 +127,7 @@ brc_status brc_beams_upload(brc_simulation *s)
         rows[3 * (int64_t)r + 1] = beam->bend;
         rows[3 * (int64_t)r + 2] = beam->twist;
     }
-    if (status == BRC_OK) status = brc_upload_coeff(s, brc_beam_array_of(s), rows, 3 * (int64_t)layout->n_rows);
-    brc_memory_free(rows);
-    return status;
-}
-
-static double in_series(double a, double b)
-{
-    return 2 * a * b / (a + b);
+    return status == BRC_OK ? brc_upload_coeff(s, brc_beam_array_of(s), rows, 3 * (int64_t)layout->n_rows) : status;
 }
 
 /* Diagonal block of element e (docs/notebook/beams.md), full, u before theta: sum over its beams of
@@ -158,8 +147,9 @@ static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
         const double length = sqrt(square);
         for (int c = 0; c < 3; ++c)
             n[c] /= length;
-        const double ka = in_series(own->axial, other->axial) / length, a = in_series(own->bend, other->bend) / length;
-        const double kt = in_series(own->twist, other->twist) / length, across = 6 * a / square,
+        const double ka = brc_in_series(own->axial, other->axial) / length,
+                     a = brc_in_series(own->bend, other->bend) / length;
+        const double kt = brc_in_series(own->twist, other->twist) / length, across = 6 * a / square,
                      couple = 3 * a / length;
         for (int p = 0; p < 3; ++p) {
             for (int q = 0; q < 3; ++q) {
@@ -259,15 +249,12 @@ static int64_t collect(const brc_domain *d, const uint8_t *whole, int64_t e, int
 brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
 {
     const brc_domain *d = s->domain;
-    double *sum = NULL;
-    int32_t *mark = NULL, *member = NULL;
-    uint8_t *whole = NULL;
-    brc_status status = BRC_OK;
-    if (s->fracture) BRC_TRY_OR(cleanup, brc_fracture_whole(s, &whole));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &sum, 6 * d->n_elements, "virial"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &mark, d->n_elements, "virial"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, d->n_elements, "virial"));
-    BRC_TRY_OR(cleanup, virial(s, sum));
+    BRC_FREED uint8_t *whole = NULL;
+    if (s->fracture) BRC_TRY(brc_fracture_whole(s, &whole));
+    BRC_LOCAL(s->context, 6 * d->n_elements, double, sum, "virial");
+    BRC_LOCAL(s->context, d->n_elements, int32_t, mark, "virial");
+    BRC_LOCAL(s->context, d->n_elements, int32_t, member, "virial");
+    BRC_TRY(virial(s, sum));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const int64_t n = collect(d, whole, e, level, mark, member);
         double total[6] = {0}, volume = 0;
@@ -279,10 +266,5 @@ brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
         for (int c = 0; c < 6; ++c)
             out[6 * e + c] = total[c] / (2 * volume);
     }
-cleanup:
-    brc_memory_free(sum);
-    brc_memory_free(mark);
-    brc_memory_free(member);
-    brc_memory_free(whole);
-    return status;
+    return BRC_OK;
 }

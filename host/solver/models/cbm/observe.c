@@ -14,15 +14,13 @@ static void hooke_inverse(const brc_elastic *m, const double sigma[6], double ou
 brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
 {
     const int64_t n = s->domain->n_elements;
-    double *sigma = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &sigma, 6 * n, "virial stress"));
+    BRC_LOCAL(s->context, 6 * n, double, sigma, "virial stress");
     const brc_status status = brc_beams_stress(s, 1, sigma);
     for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
         if (strain) hooke_inverse(s->elastic + s->material_of_element[e], sigma + 6 * e, strain + 6 * e);
         if (stress) memcpy(stress + 6 * e, sigma + 6 * e, 6 * sizeof *sigma);
         if (cauchy) memcpy(cauchy + 6 * e, sigma + 6 * e, 6 * sizeof *sigma);
     }
-    brc_memory_free(sigma);
     return status;
 }
 

@@ -52,12 +52,11 @@ static void support_of(const brc_simulation *s, int64_t e, double *least, double
 static brc_status upload_elements(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
-    double *modulus = NULL, *support = NULL, *stiffest = NULL, largest = 0;
-    brc_status status = BRC_OK;
+    double largest = 0;
     int64_t weak = 0;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &modulus, layout->n_rows, "moduli"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &stiffest, layout->n_rows, "supports"));
+    BRC_LOCAL(s->context, layout->n_rows, double, modulus, "moduli");
+    BRC_LOCAL(s->context, layout->n_rows, double, support, "supports");
+    BRC_LOCAL(s->context, layout->n_rows, double, stiffest, "supports");
 #pragma omp parallel for schedule(static) reduction(+ : weak) reduction(max : largest)
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
@@ -80,14 +79,9 @@ static brc_status upload_elements(brc_simulation *s)
                 "up to %.2g) that they come off with "
                 "their first broken bond; a relaxed grid (`lloyd`) has fewer",
                 (long long)weak, (long long)s->domain->n_elements, support_least);
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "plane"), modulus, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "support"), support, layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "stiffest"), stiffest, layout->n_rows));
-cleanup:
-    brc_memory_free(modulus);
-    brc_memory_free(support);
-    brc_memory_free(stiffest);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, brc_cell_breaks_array(s, "plane"), modulus, layout->n_rows));
+    BRC_TRY(brc_upload_coeff(s, brc_cell_breaks_array(s, "support"), support, layout->n_rows));
+    return brc_upload_coeff(s, brc_cell_breaks_array(s, "stiffest"), stiffest, layout->n_rows);
 }
 
 static brc_status make_passes(brc_simulation *s)
@@ -125,10 +119,7 @@ brc_status brc_dlsm_rebuild(brc_simulation *s, double *left)
     return brc_vector_sum(s, brc_cell_breaks_marked(s), s->n_groups, left);
 }
 
-bool brc_dlsm_screens(const brc_simulation *s)
-{
-    return brc_cell_breaks_by_bond(s) && !brc_softening_is_on(s);
-}
+BRC_READ(bool, brc_dlsm_screens, brc_cell_breaks_by_bond(s) && !brc_softening_is_on(s))
 
 brc_status brc_dlsm_screening_forces(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {
@@ -138,20 +129,11 @@ brc_status brc_dlsm_screening_forces(brc_simulation *s, const brc_force_request 
 
 brc_status brc_dlsm_ratio(brc_simulation *s, double *out)
 {
-    brc_buffer *ratio = NULL;
-    double *value = NULL;
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_buffer_free) brc_buffer *ratio = NULL;
     *out = 0;
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    BRC_TRY_OR(cleanup, BRC_RUN(brc_dlsm_own_of(s)->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
-    BRC_TRY_OR(cleanup, brc_coeff_from_rows(s, ratio, value, 1));
-    for (int64_t e = 0; e < s->domain->n_elements; ++e)
-        *out = fmax(*out, value[e]);
-cleanup:
-    brc_buffer_free(&ratio);
-    brc_memory_free(value);
-    return status;
+    BRC_TRY(brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
+    BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
+    return brc_largest_coeff(s, ratio, out);
 }
 
 /* Areas and ratios are stored in place of branches. */
@@ -161,8 +143,7 @@ brc_status brc_dlsm_branches(brc_simulation *s, brc_buffer **out)
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t slice = layout->slice;
-    double *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, 3 * layout->n_slots * slice, "branches"));
+    BRC_LOCAL(s->context, 3 * layout->n_slots * slice, double, rows, "branches");
     for (int64_t k = 0; k < layout->n_slots * slice; ++k) {
         const int32_t h = layout->half_edge[k];
         for (int c = 0; c < 3; ++c)
@@ -171,7 +152,5 @@ brc_status brc_dlsm_branches(brc_simulation *s, brc_buffer **out)
                       : d->position[3 * (int64_t)d->neighbour[h] + c] -
                             d->position[3 * (int64_t)d->neighbour[d->twin[h]] + c];
     }
-    const brc_status status = brc_upload_coeff(s, *out, rows, 3 * layout->n_slots * slice);
-    brc_memory_free(rows);
-    return status;
+    return brc_upload_coeff(s, *out, rows, 3 * layout->n_slots * slice);
 }

@@ -1,4 +1,5 @@
 #include "cell_softening.h"
+#include "../../core/sym3.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
 #include "dlsm_internal.h"
@@ -42,33 +43,20 @@ struct brc_softening_faces {
 };
 typedef struct brc_softening_faces softening_faces;
 
-static bool softens(const brc_wants *w)
-{
-    return w->scene->has_fracture && brc_wants_cells(w) && w->softens;
-}
-
-static bool slides(const brc_wants *w)
-{
-    return brc_scene_slides(w->scene, w->scene->model.kind);
-}
+BRC_WANTED(softens, w->scene->has_fracture &&brc_wants_cells(w) && w->softens)
+BRC_WANTED(slides, brc_scene_slides(w->scene, w->scene->model.kind))
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {
-    {"crack", brc_each_entry, WIDTH, BRC_FIELD_COEFF, NULL, AT(crack), "cohesion of faces", "-",
-     BRC_KEPT("softening.crack", BRC_KEEP_ALL)},
-    {"open", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(open), "open faces", "-",
-     BRC_KEPT("softening.open", BRC_KEEP_ALL)},
-    {"lead", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(lead), "cohesion of faces", "-", BRC_NOT_KEPT},
-    {"n_open", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(n_open), "open faces", "-",
-     BRC_KEPT("softening.n_open", BRC_KEEP_ALL)},
-    {"reach", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(reach), "reach of open faces", "-",
-     BRC_KEPT("softening.reach", BRC_KEEP_ALL)},
-    {"shear_limit", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_limit), "limits of shear", "Pa", BRC_NOT_KEPT},
-    {"shear_energy", brc_each_entry, 1, BRC_FIELD_COEFF, slides, AT(shear_energy), "fracture energies in shear", "J",
-     BRC_NOT_KEPT},
-    {"shear", brc_each_row, 1, BRC_FIELD_COEFF, NULL, AT(shear), "shear moduli", "Pa", BRC_NOT_KEPT},
-    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
-     BRC_KEPT("softening.rubbed", BRC_KEEP_ALL)},
+    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of faces", "-", "softening.crack"),
+    BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open faces", "-", "softening.open"),
+    BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of faces", "-"),
+    BRC_KEPT_FIELD(n_open, brc_each_row, 1, INT, NULL, "open faces", "-", "softening.n_open"),
+    BRC_KEPT_FIELD(reach, brc_each_row, 1, COEFF, NULL, "reach of open faces", "-", "softening.reach"),
+    BRC_FIELD(shear_limit, brc_each_entry, 1, COEFF, slides, "limits of shear", "Pa"),
+    BRC_FIELD(shear_energy, brc_each_entry, 1, COEFF, slides, "fracture energies in shear", "J"),
+    BRC_FIELD(shear, brc_each_row, 1, COEFF, NULL, "shear moduli", "Pa"),
+    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "softening.rubbed"),
 };
 BRC_FIELD_TABLE(brc_softening_fields, "cohesion of faces", BRC_LIFE_RUN, softens, rows);
 
@@ -76,10 +64,7 @@ static softening_faces *faces_of(const brc_simulation *s)
 {
     return brc_dlsm_own_of(s)->softening;
 }
-bool brc_softening_is_on(const brc_simulation *s)
-{
-    return faces_of(s) != NULL;
-}
+BRC_READ(bool, brc_softening_is_on, faces_of(s) != NULL)
 
 static brc_status make_passes(brc_simulation *s, softening_faces *f)
 {
@@ -103,11 +88,6 @@ static brc_status make_passes(brc_simulation *s, softening_faces *f)
         BRC_PASS(&f->energy, "soft_energy", NULL),
         BRC_PASS(&f->settle, "soft_settle", "step list")};
     return BRC_PASSES_MAKE(s, &faces, wanted);
-}
-
-static double norm3(const double *x)
-{
-    return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
 /* Warns where E G_c / sigma_f^2 is too few cells, and of bonds whose cells give way less than the cohesion falls: those
@@ -143,30 +123,22 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
-    double *crack = NULL, *shear = NULL;
-    int32_t *lead = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &lead, n_entries, "cohesion of faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &shear, layout->n_rows, "shear moduli"));
+    BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of faces");
+    BRC_LOCAL(s->context, n_entries, int32_t, lead, "cohesion of faces");
+    BRC_LOCAL(s->context, layout->n_rows, double, shear, "shear moduli");
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
         double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
-        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
     for (int32_t r = 0; r < layout->n_rows; ++r)
         if (layout->element_of_row[r] >= 0) shear[r] = s->elastic[s->material_of_element[layout->element_of_row[r]]].mu;
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_int(f->lead, lead, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear, shear, layout->n_rows));
-cleanup:
-    brc_memory_free(crack);
-    brc_memory_free(lead);
-    brc_memory_free(shear);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
+    BRC_TRY(brc_upload_int(f->lead, lead, n_entries));
+    return brc_upload_coeff(s, f->shear, shear, layout->n_rows);
 }
 
 /* Limits and energies of faces that slide. */
@@ -178,25 +150,19 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
     const double whole = 2 * s->scene->fracture.cohesion * cos(s->scene->fracture.friction);
     const double reach = 2 * (1 + sin(s->scene->fracture.friction)); /* 2 cos |tau| + 2 sin sigma_n, and Mohr-Coulomb's
                                                                         sum, are at most this times the norm */
-    double *limit = NULL, *energy = NULL;
-    brc_status status = BRC_OK;
     if (!f->shear_limit) return BRC_OK;
     f->shear_least = INFINITY;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &limit, n_entries, "limits of shear"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &energy, n_entries, "fracture energies in shear"));
+    BRC_LOCAL(s->context, n_entries, double, limit, "limits of shear");
+    BRC_LOCAL(s->context, n_entries, double, energy, "fracture energies in shear");
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
         f->shear_least = fmin(f->shear_least, whole * strengths->factor[d->bond[h]] / reach);
         limit[k] = (strengths->joint[d->bond[h]] ? -whole : whole) * strengths->factor[d->bond[h]];
-        energy[k] = strengths->shear_energy[d->bond[h]] * norm3(d->area_vector + 3 * (int64_t)h);
+        energy[k] = strengths->shear_energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_limit, limit, n_entries));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, f->shear_energy, energy, n_entries));
-cleanup:
-    brc_memory_free(limit);
-    brc_memory_free(energy);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, f->shear_limit, limit, n_entries));
+    return brc_upload_coeff(s, f->shear_energy, energy, n_entries);
 }
 
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths)
@@ -244,17 +210,15 @@ brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int 
 brc_status brc_softening_force(brc_simulation *s, brc_buffer *force)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
     if (!f || !f->any) return BRC_OK;
-    return BRC_RUN(f->take_force, n, {"force", BRC_BUF(force)});
+    return BRC_RUN(f->take_force, s->layout->n_rows, {"force", BRC_BUF(force)});
 }
 
 brc_status brc_softening_energy(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
     if (!f || !f->any) return BRC_OK;
-    return brc_pass_run(f->energy, n);
+    return brc_pass_run(f->energy, s->layout->n_rows);
 }
 
 /* ---- a step ---- */
@@ -273,8 +237,7 @@ static double friction_of(const brc_simulation *s)
 static brc_status sweep(brc_simulation *s, int k)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
-    return BRC_RUN(f->move, n, {"is_last", BRC_INT(k == N_SWEEPS - 1)}, {"stiffen", BRC_COEFF(stiffen)},
+    return BRC_RUN(f->move, s->layout->n_rows, {"is_last", BRC_INT(k == N_SWEEPS - 1)}, {"stiffen", BRC_COEFF(stiffen)},
                    {"steepest", BRC_COEFF(steepest)}, {"friction", BRC_COEFF(friction_of(s))},
                    {"retention", BRC_COEFF(retention)}, {"release", BRC_COEFF(release_of(s))});
 }
@@ -287,9 +250,9 @@ static brc_status list_around(brc_simulation *s)
     brc_rings *rings = brc_cell_breaks_rings(s);
     if (f->is_listed && f->lists == brc_contact_lists(s)) return BRC_OK;
     BRC_TRY(brc_rings_seed(s, rings, f->n_open));
-    BRC_TRY(brc_contact_list_around(s, rings->touched));
+    BRC_TRY(brc_contact_list_around(s, brc_rings_touched(rings)));
     BRC_TRY(brc_rings_spread(s, rings, 1, 2));
-    BRC_TRY(brc_contact_spread(s, rings->level, 1 + 2));
+    BRC_TRY(brc_contact_spread(s, brc_rings_level(rings), 1 + 2));
     f->is_listed = true;
     f->lists = brc_contact_lists(s);
     return brc_rings_close(s, rings, BRC_RINGS_DROP, &f->around);
@@ -301,8 +264,7 @@ brc_status brc_softening_move(brc_simulation *s)
     if (!f || !f->any) return BRC_OK;
     const bool whole = brc_contact_is_due(s);
     if (!whole) BRC_TRY(list_around(s));
-    const int32_t n = s->layout->n_rows;
-    BRC_TRY(brc_pass_run(f->coast, n));
+    BRC_TRY(brc_pass_run(f->coast, s->layout->n_rows));
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
         BRC_TRY(s->model->fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k));
@@ -313,17 +275,15 @@ brc_status brc_softening_move(brc_simulation *s)
 static brc_status measure(brc_simulation *s, int book)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
-    return BRC_RUN(f->measure, n, {"book", BRC_INT(book)}, {"release", BRC_COEFF(release_of(s))});
+    return BRC_RUN(f->measure, s->layout->n_rows, {"book", BRC_INT(book)}, {"release", BRC_COEFF(release_of(s))});
 }
 
 brc_status brc_softening_recount(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
-    const int32_t n = s->layout->n_rows;
     if (!f) return BRC_OK;
     f->is_listed = false;
-    return brc_pass_run(f->count, n);
+    return brc_pass_run(f->count, s->layout->n_rows);
 }
 
 brc_status brc_softening_refresh(brc_simulation *s)
@@ -372,25 +332,16 @@ static brc_status rejoin(brc_simulation *s, softening_faces *f)
 {
     const brc_layout *layout = s->layout;
     const int64_t n = layout->n_slots * layout->slice;
-    int32_t *neighbour = NULL, *open = NULL;
-    double *alive = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &neighbour, n, "neighbours"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n, "open faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
-    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n));
-    BRC_TRY_OR(cleanup, brc_download(s, brc_cell_breaks_array(s, "alive"),
-                                     brc_precision_coeff_bytes(brc_device_get_precision(s->device)), alive, n));
+    BRC_LOCAL(s->context, n, int32_t, neighbour, "neighbours");
+    BRC_LOCAL(s->context, n, int32_t, open, "open faces");
+    BRC_LOCAL(s->context, n, double, alive, "unbroken bonds");
+    BRC_TRY(brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * n));
+    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n));
+    BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"), brc_coeff_bytes(s), alive, n));
     for (int64_t k = 0; k < n; ++k)
         if (layout->half_edge[k] >= 0 && open[k] == APART && alive[k] > 0)
             neighbour[k] = layout->row_of_element[s->domain->neighbour[layout->half_edge[k]]];
-    BRC_TRY_OR(cleanup, brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n));
-cleanup:
-    brc_memory_free(neighbour);
-    brc_memory_free(open);
-    brc_memory_free(alive);
-    return status;
+    return brc_buffer_write(brc_neighbour_of(s), 0, neighbour, 4 * n);
 }
 
 brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
@@ -423,18 +374,15 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
-    double *crack = NULL, *alive = NULL;
-    int32_t *open = NULL;
-    brc_status status = BRC_OK;
     *out = (brc_softening_report){0};
     if (!f || !f->any) return BRC_OK;
-    const int bytes = brc_precision_coeff_bytes(brc_device_get_precision(s->device));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &crack, WIDTH * n_entries, "cohesion of faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &alive, n_entries, "unbroken bonds"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &open, n_entries, "open faces"));
-    BRC_TRY_OR(cleanup, brc_buffer_read(f->open, 0, open, 4 * n_entries));
-    BRC_TRY_OR(cleanup, brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
-    BRC_TRY_OR(cleanup, brc_download(s, brc_cell_breaks_array(s, "alive"), bytes, alive, n_entries));
+    const int bytes = brc_coeff_bytes(s);
+    BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of faces");
+    BRC_LOCAL(s->context, n_entries, double, alive, "unbroken bonds");
+    BRC_LOCAL(s->context, n_entries, int32_t, open, "open faces");
+    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    BRC_TRY(brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
+    BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"), bytes, alive, n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
@@ -447,11 +395,7 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
             continue;
         }
         out->n_ended += 1;
-        out->area += tilt * own[COSINE * layout->slice] * norm3(d->area_vector + 3 * (int64_t)h);
+        out->area += tilt * own[COSINE * layout->slice] * brc_norm3(d->area_vector + 3 * (int64_t)h);
     }
-cleanup:
-    brc_memory_free(crack);
-    brc_memory_free(alive);
-    brc_memory_free(open);
-    return status;
+    return BRC_OK;
 }

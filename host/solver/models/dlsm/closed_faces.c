@@ -13,7 +13,7 @@ struct brc_closed_faces {
     brc_pass *keep, *probe_pass, *follow, *press, *flux, *force, *energy, *again, *delta_pass;
     brc_buffer *closed, *spring, *overlap, *slide; /* [n_slots][C], slide [n_slots][3][C], NULL without friction */
     brc_buffer *place;                             /* [n_rows][3] */
-    brc_buffer *next, *presses, *look, *near;      /* [n_rows] */
+    brc_buffer *next, *presses, *probe, *near;     /* [n_rows] */
     brc_buffer *load, *delta;                      /* [n_rows][LOAD] */
     brc_buffer *held, *rubbed;                     /* [n_rows] */
     bool any;                                      /* some bond has broken */
@@ -51,60 +51,42 @@ static int32_t moment_of(const brc_simulation *s)
 static brc_status upload_places(brc_simulation *s, closed_faces *f)
 {
     const int64_t n = s->layout->n_rows;
-    double *place = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &place, 3 * n, "places of elements"));
+    BRC_LOCAL(s->context, 3 * n, double, place, "places of elements");
     for (int64_t r = 0; r < n; ++r)
         for (int c = 0; c < 3 && s->layout->element_of_row[r] >= 0; ++c)
             place[3 * r + c] = s->domain->position[3 * (int64_t)s->layout->element_of_row[r] + c];
-    BRC_TRY_OR(cleanup, brc_upload_state(s, f->place, place, 3 * n));
-cleanup:
-    brc_memory_free(place);
-    return status;
+    return brc_upload_state(s, f->place, place, 3 * n);
 }
 
 static brc_status upload_next(brc_simulation *s, closed_faces *f)
 {
     const int64_t n = s->layout->n_rows;
-    int32_t *next = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &next, n, "broken faces"));
+    BRC_LOCAL(s->context, n, int32_t, next, "broken faces");
     for (int64_t r = 0; r < n; ++r)
         next[r] = INT_MAX; /* CLOSED_NEVER */
-    const brc_status status = brc_upload_int(f->next, next, n);
-    brc_memory_free(next);
-    return status;
+    return brc_upload_int(f->next, next, n);
 }
 
-static bool shuts(const brc_wants *w)
-{
-    return brc_scene_shuts(w->scene) && brc_wants_deforming(w) && !w->softens;
-}
-static bool rubs(const brc_wants *w)
-{
-    return brc_scene_side_friction(w->scene) > 0;
-}
+BRC_WANTED(shuts, brc_scene_shuts(w->scene) && brc_wants_deforming(w) && !w->softens)
+BRC_WANTED(rubs, brc_scene_side_friction(w->scene) > 0)
 
 #define AT(member) BRC_FIELD_AT(closed_faces, member)
 static const brc_field_row rows[] = {
-    {"closed", brc_each_entry, 1, BRC_FIELD_INT, NULL, AT(closed), "broken faces", "-",
-     BRC_KEPT("closed.faces", BRC_KEEP_BROKEN)},
-    {"spring", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(spring), "springs of broken faces", "N/m",
-     BRC_KEPT("closed.spring", BRC_KEEP_BROKEN)},
-    {"overlap", brc_each_entry, 1, BRC_FIELD_COEFF, NULL, AT(overlap), "broken faces", "m",
-     BRC_KEPT("closed.overlap", BRC_KEEP_BROKEN)},
-    {"slide", brc_each_entry, 3, BRC_FIELD_COEFF, rubs, AT(slide), "friction of broken faces", "m",
-     BRC_KEPT("closed.slide", BRC_KEEP_BROKEN)},
-    {"place", brc_each_row, 3, BRC_FIELD_STATE, NULL, AT(place), "places of elements", "m", BRC_NOT_KEPT},
-    {"next", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(next), "broken faces", "-",
-     BRC_KEPT("closed.next", BRC_KEEP_ALL)},
-    {"presses", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(presses), "broken faces", "-", BRC_NOT_KEPT},
-    {"probe", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(look), "broken faces", "-", BRC_NOT_KEPT},
-    {"near", brc_each_row, 1, BRC_FIELD_INT, NULL, AT(near), "broken faces", "-", BRC_NOT_KEPT},
-    {"load", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(load), "forces of broken faces", "N", BRC_NOT_KEPT},
-    {"delta", brc_each_row, LOAD, BRC_FIELD_COEFF, NULL, AT(delta), "forces of broken faces", "N", BRC_NOT_KEPT},
-    {"held", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(held), "energy of broken faces", "J", BRC_NOT_KEPT},
-    {"rubbed", brc_each_row, 1, BRC_FIELD_STATE, NULL, AT(rubbed), "friction of broken faces", "J",
-     BRC_KEPT("closed.rubbed", BRC_KEEP_ALL)},
+    BRC_PART_KEPT(closed, brc_each_entry, 1, INT, NULL, "broken faces", "-", "closed.faces", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(spring, brc_each_entry, 1, COEFF, NULL, "springs of broken faces", "N/m", "closed.spring",
+                  BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(overlap, brc_each_entry, 1, COEFF, NULL, "broken faces", "m", "closed.overlap", BRC_KEEP_BROKEN),
+    BRC_PART_KEPT(slide, brc_each_entry, 3, COEFF, rubs, "friction of broken faces", "m", "closed.slide",
+                  BRC_KEEP_BROKEN),
+    BRC_FIELD(place, brc_each_row, 3, STATE, NULL, "places of elements", "m"),
+    BRC_KEPT_FIELD(next, brc_each_row, 1, INT, NULL, "broken faces", "-", "closed.next"),
+    BRC_FIELD(presses, brc_each_row, 1, INT, NULL, "broken faces", "-"),
+    BRC_FIELD(probe, brc_each_row, 1, INT, NULL, "broken faces", "-"),
+    BRC_FIELD(near, brc_each_row, 1, INT, NULL, "broken faces", "-"),
+    BRC_FIELD(load, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
+    BRC_FIELD(delta, brc_each_row, LOAD, COEFF, NULL, "forces of broken faces", "N"),
+    BRC_FIELD(held, brc_each_row, 1, STATE, NULL, "energy of broken faces", "J"),
+    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, NULL, "friction of broken faces", "J", "closed.rubbed"),
 };
 BRC_FIELD_TABLE(brc_closed_face_fields, "broken faces that bear", BRC_LIFE_RUN, shuts, rows);
 
@@ -196,7 +178,7 @@ brc_status brc_closed_faces_keep(brc_simulation *s)
     return brc_pass_run(f->keep, s->n_groups);
 }
 
-brc_status brc_closed_faces_look(brc_simulation *s)
+brc_status brc_closed_faces_probe(brc_simulation *s)
 {
     const closed_faces *f = faces_of(s);
     if (!f || is_disabled(s)) return BRC_OK;

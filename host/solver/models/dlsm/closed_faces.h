@@ -26,7 +26,7 @@ brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r,
 /* Before marked bonds break; after all of them broke; after the forces around them were found: forces and velocities
  * gain what pressed faces changed by (half_kick: brc_cell_breaks_step). */
 brc_status brc_closed_faces_keep(brc_simulation *s);
-brc_status brc_closed_faces_look(brc_simulation *s);
+brc_status brc_closed_faces_probe(brc_simulation *s);
 brc_status brc_closed_faces_change(brc_simulation *s, double half_kick);
 
 /* Places were set otherwise than by a step: all faces are looked at, until the next one. */

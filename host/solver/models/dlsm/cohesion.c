@@ -30,7 +30,7 @@ static brc_status store_ahead(brc_simulation *s, brc_state_store *to)
 static brc_status after_breaks(brc_simulation *s)
 {
     BRC_TRY(brc_softening_recount(s));
-    return brc_closed_faces_look(s);
+    return brc_closed_faces_probe(s);
 }
 
 const brc_model_cohesion brc_dlsm_cohesion = {.is_on = brc_softening_is_on,

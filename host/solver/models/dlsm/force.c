@@ -19,12 +19,12 @@ static extent extent_of(const brc_simulation *s, const brc_force_request *r)
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
     if (!r->rings) return (extent){.list = r->homogeneous ? NULL : brc_contact_bonded(s)};
     const bool rim = brc_rims_add(s, r->rings); /* rings 2 and 3 are done otherwise */
-    return (extent){.list = &r->rings->around,
+    return (extent){.list = brc_rings_around(r->rings),
                     .gradient = own->ring.gradient,
                     .stress = own->ring.stress,
                     .flux = rim ? 1 : own->ring.flux,
                     .force = rim ? 1 : own->ring.force,
-                    .whole_flux = r->rings->whole_force};
+                    .whole_flux = brc_rings_are_whole(r->rings)};
 }
 
 /* H and, where faces are held, their part of G. */
@@ -148,7 +148,7 @@ static brc_status bonds_around(brc_simulation *s, const brc_ring_list *list, int
 /* Rings 0 and 1 have other strains, bonds of ring 0 alone other energies. */
 brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
 {
-    const brc_ring_list *list = &rings->around;
+    const brc_ring_list *list = brc_rings_around(rings);
     const bool apart = brc_rims_energies_apart(s);
     const int ring = found ? 2 : 1, ring_of_bonds = found ? 1 : 0;
     double part[4] = {0};

@@ -24,6 +24,8 @@ static const brc_model_breaking breaking = {.create = brc_dlsm_breaks_create,
                                             .replace_around = brc_dlsm_replace_around,
                                             .energy_around = brc_dlsm_energy_around};
 
+/* The linear law; without compaction and loads on faces what is left of it is the stabilisation. */
+static const char *const smoothing[] = {"dlsm_gradient", "dlsm_flux_linear", "dlsm_force", NULL};
 static const brc_model_statics statics = {.symmetric = true, .blocks = brc_geometry_precondition_blocks};
 
 /* Friction of broken faces, and what closed ones hold. */
@@ -66,6 +68,7 @@ const brc_bond_model brc_dlsm = {
     .strain_stress = brc_dlsm_strain_stress,
     .face_displacement = brc_dlsm_face_displacement,
     .statics = &statics,
+    .smoothing = smoothing,
     .conserves = true,
     .upload = brc_dlsm_upload,
     .create_fracture = brc_cell_breaks_create,

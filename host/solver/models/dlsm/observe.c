@@ -50,8 +50,7 @@ static void cauchy_of(const double g[9], const double sigma[6], double out[6])
 brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
 {
     const int64_t n = s->domain->n_elements;
-    double *g = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &g, 9 * n, "deformation"));
+    BRC_LOCAL(s->context, 9 * n, double, g, "deformation");
     const brc_status status = deformation(s, g);
     for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
         double own[6], sigma[6];
@@ -61,41 +60,32 @@ brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *str
         if (stress) memcpy(stress + 6 * e, sigma, sizeof sigma);
         if (cauchy) cauchy_of(g + 9 * e, sigma, cauchy + 6 * e);
     }
-    brc_memory_free(g);
     return status;
 }
 
 brc_status brc_dlsm_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
 {
     const brc_domain *d = s->domain;
-    brc_buffer *element = NULL, *arm = NULL, *result = NULL;
-    int32_t *rows = NULL;
-    double *arms = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, n, "faces"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arms, 3 * n, "faces"));
+    BRC_ENDS_WITH(brc_buffer_free) brc_buffer *element = NULL;
+    BRC_ENDS_WITH(brc_buffer_free) brc_buffer *arm = NULL;
+    BRC_ENDS_WITH(brc_buffer_free) brc_buffer *result = NULL;
+    BRC_LOCAL(s->context, n, int32_t, rows, "faces");
+    BRC_LOCAL(s->context, 3 * n, double, arms, "faces");
     for (int64_t i = 0; i < n; ++i) {
         const int64_t f = faces[i], e = d->free_element[f];
         rows[i] = s->layout->row_of_element[e];
         for (int c = 0; c < 3; ++c)
             arms[3 * i + c] = d->free_centroid[3 * f + c] - d->position[3 * e + c];
     }
-    BRC_TRY_OR(cleanup, brc_new_int(s, &element, rows, n, "faces"));
-    BRC_TRY_OR(cleanup, brc_new_coeff(s, &arm, 3 * n, "faces"));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, arm, arms, 3 * n));
-    BRC_TRY_OR(cleanup, brc_new_state(s, &result, 3 * n, "faces"));
-    BRC_TRY_OR(cleanup, BRC_RUN(brc_dlsm_own_of(s)->face_displacement, n, {"element", BRC_BUF(element)},
-                                {"arm", BRC_BUF(arm)}, {"out", BRC_BUF(result)}));
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    BRC_TRY_OR(cleanup, brc_download(s, result, bytes, out, 3 * n));
-    status = brc_held_faces_displacement(s, n, faces, out);
-cleanup:
-    brc_buffer_free(&element);
-    brc_buffer_free(&arm);
-    brc_buffer_free(&result);
-    brc_memory_free(rows);
-    brc_memory_free(arms);
-    return status;
+    BRC_TRY(brc_new_int(s, &element, rows, n, "faces"));
+    BRC_TRY(brc_new_coeff(s, &arm, 3 * n, "faces"));
+    BRC_TRY(brc_upload_coeff(s, arm, arms, 3 * n));
+    BRC_TRY(brc_new_state(s, &result, 3 * n, "faces"));
+    BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->face_displacement, n, {"element", BRC_BUF(element)}, {"arm", BRC_BUF(arm)},
+                    {"out", BRC_BUF(result)}));
+    const int bytes = brc_state_bytes(s);
+    BRC_TRY(brc_download(s, result, bytes, out, 3 * n));
+    return brc_held_faces_displacement(s, n, faces, out);
 }
 
 int brc_dlsm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])

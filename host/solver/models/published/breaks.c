@@ -56,11 +56,9 @@ static brc_status make_passes(brc_simulation *s)
 brc_status brc_published_breaks_create(brc_simulation *s)
 {
     const brc_layout *layout = s->layout;
-    double *support = NULL, *spanned = NULL;
-    brc_status status = BRC_OK;
     BRC_TRY(make_passes(s));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &support, layout->n_rows, "supports"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &spanned, 6 * (int64_t)layout->n_rows, "supports"));
+    BRC_LOCAL(s->context, layout->n_rows, double, support, "supports");
+    BRC_LOCAL(s->context, 6 * (int64_t)layout->n_rows, double, spanned, "supports");
 #pragma omp parallel for schedule(static)
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         double projector[6] = {0};
@@ -68,25 +66,21 @@ brc_status brc_published_breaks_create(brc_simulation *s)
         for (int k = 0; k < 6; ++k)
             spanned[(int64_t)(r / layout->slice * 6 + k) * layout->slice + r % layout->slice] = projector[k];
     }
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "spanned"), spanned, 6 * (int64_t)layout->n_rows));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, brc_cell_breaks_array(s, "support"), support, layout->n_rows));
-cleanup:
-    brc_memory_free(support);
-    brc_memory_free(spanned);
-    return status;
+    BRC_TRY(brc_upload_coeff(s, brc_cell_breaks_array(s, "spanned"), spanned, 6 * (int64_t)layout->n_rows));
+    return brc_upload_coeff(s, brc_cell_breaks_array(s, "support"), support, layout->n_rows);
 }
 
 brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_request *r)
 {
     const brc_published_own *c = brc_published_own_of(s);
-    return brc_pass_over(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? &r->rings->around : NULL, 0, r,
-                         NULL);
+    return brc_pass_over(s, c->breaking_strain, c->breaking_strain_listed, r->rings ? brc_rings_around(r->rings) : NULL,
+                         0, r, NULL);
 }
 
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r)
 {
     const brc_published_own *c = brc_published_own_of(s);
-    const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
+    const brc_ring_list *list = brc_request_list(r);
     return brc_pass_over(s, c->breaking_force, c->breaking_force_listed, list, 2, r, NULL);
 }
 
@@ -104,14 +98,7 @@ brc_status brc_published_rebuild(brc_simulation *s, double *left)
 
 brc_status brc_published_ratio(brc_simulation *s, double *out)
 {
-    double *value = NULL;
-    *out = 0;
-    BRC_TRY(BRC_ALLOCATE(s->context, &value, s->domain->n_elements, "failure ratios"));
-    const brc_status status = brc_coeff_from_rows(s, brc_cell_breaks_array(s, "bond_ratio"), value, 1);
-    for (int64_t e = 0; status == BRC_OK && e < s->domain->n_elements; ++e)
-        *out = fmax(*out, value[e]);
-    brc_memory_free(value);
-    return status;
+    return brc_largest_coeff(s, brc_cell_breaks_array(s, "bond_ratio"), out);
 }
 
 brc_status brc_published_branches(brc_simulation *s, brc_buffer **out)

@@ -4,7 +4,7 @@
 
 brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
 {
-    const brc_ring_list *list = r->rings && !r->rings->whole_force ? &r->rings->around : NULL;
+    const brc_ring_list *list = brc_request_list(r);
     if (s->fracture)
         BRC_TRY(brc_published_breaks_strains(s, r));
     else
@@ -16,11 +16,6 @@ brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
 brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r)
 {
     return brc_traction_forces_run(s, brc_published_own_of(s)->traction, r);
-}
-
-bool brc_published_places(const brc_simulation *s, const brc_rings *rings)
-{
-    return (void)s, (void)rings, false;
 }
 
 brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings)
@@ -38,7 +33,7 @@ static brc_status element_energies(brc_simulation *s, const brc_ring_list *list,
 /* Rings 0 and 1 have other strains. */
 brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
 {
-    const brc_ring_list *list = &rings->around;
+    const brc_ring_list *list = brc_rings_around(rings);
     const int ring = found ? 2 : 1;
     double part[2] = {0};
     BRC_TRY(element_energies(s, list, ring));

@@ -9,7 +9,6 @@ static const brc_model_breaking breaking = {.create = brc_published_breaks_creat
                                             .branches = brc_published_branches,
                                             .mark = brc_published_mark,
                                             .rebuild = brc_published_rebuild,
-                                            .places = brc_published_places,
                                             .ratio = brc_published_ratio,
                                             .replace_around = brc_published_replace_around,
                                             .energy_around = brc_published_energy_around};

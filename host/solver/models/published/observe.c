@@ -5,8 +5,7 @@
 brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double *stress, double *cauchy)
 {
     const int64_t n = s->domain->n_elements;
-    double *own = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &own, 6 * n, "strains"));
+    BRC_LOCAL(s->context, 6 * n, double, own, "strains");
     const brc_status status = brc_coeff_from_rows(s, brc_gradient_of(s), own, 6);
     for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
         double sigma[6];
@@ -15,19 +14,16 @@ brc_status brc_published_strain_stress(brc_simulation *s, double *strain, double
         if (stress) memcpy(stress + 6 * e, sigma, sizeof sigma);
         if (cauchy) memcpy(cauchy + 6 * e, sigma, sizeof sigma);
     }
-    brc_memory_free(own);
     return status;
 }
 
 brc_status brc_published_face_displacement(brc_simulation *s, int64_t n, const int32_t *faces, double *out)
 {
     const brc_domain *d = s->domain;
-    double *u = NULL, *q = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &u, 3 * d->n_elements, "displacements"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &q, 4 * d->n_elements, "orientations"));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_displacement_of(s), u, 3));
-    BRC_TRY_OR(cleanup, brc_state_from_rows(s, brc_orientation_of(s), q, 4));
+    BRC_LOCAL(s->context, 3 * d->n_elements, double, u, "displacements");
+    BRC_LOCAL(s->context, 4 * d->n_elements, double, q, "orientations");
+    BRC_TRY(brc_state_from_rows(s, brc_displacement_of(s), u, 3));
+    BRC_TRY(brc_state_from_rows(s, brc_orientation_of(s), q, 4));
     for (int64_t i = 0; i < n; ++i) {
         const int64_t f = faces[i], e = d->free_element[f];
         double a[3], once[3], twice[3];
@@ -41,10 +37,7 @@ brc_status brc_published_face_displacement(brc_simulation *s, int64_t n, const i
         for (int c = 0; c < 3; ++c)
             out[3 * i + c] = u[3 * e + c] + 2 * (w * once[c] + twice[c]);
     }
-cleanup:
-    brc_memory_free(u);
-    brc_memory_free(q);
-    return status;
+    return BRC_OK;
 }
 
 int brc_published_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])

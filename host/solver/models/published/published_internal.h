@@ -27,7 +27,6 @@ brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
 brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r);
 brc_status brc_published_energies(brc_simulation *s, double *elastic, double *stabilisation);
 /* Around breaks: as brc_model_breaking says. */
-bool brc_published_places(const brc_simulation *s, const brc_rings *rings);
 brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings);
 brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
 

@@ -64,10 +64,8 @@ static int64_t box_of(const body_boxes *b, const double place[3])
 static brc_status number_parts(brc_context *context, const brc_rows *rows, const boxed *sorted, const int64_t *box,
                                int32_t *aggregate, int64_t *n)
 {
-    int32_t *stack = NULL, *column = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &stack, rows->n, "aggregates"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &column, rows->most, "aggregates"));
+    BRC_LOCAL(context, rows->n, int32_t, stack, "aggregates");
+    BRC_LOCAL(context, rows->most, int32_t, column, "aggregates");
     *n = 0;
     for (int64_t i = 0; i < rows->n; ++i)
         aggregate[i] = -1;
@@ -87,20 +85,16 @@ static brc_status number_parts(brc_context *context, const brc_rows *rows, const
         }
         ++*n;
     }
-cleanup:
-    brc_memory_free(stack);
-    brc_memory_free(column);
-    return status;
+    return BRC_OK;
 }
 
 static brc_status place_aggregates(brc_context *context, const brc_nodes *nodes, const int32_t *aggregate, int64_t n,
                                    brc_nodes *coarse)
 {
-    int64_t *count = NULL;
     *coarse = (brc_nodes){.n = n};
     BRC_TRY(BRC_ALLOCATE(context, &coarse->place, n, "aggregates"));
     BRC_TRY(BRC_ALLOCATE(context, &coarse->body, n, "aggregates"));
-    BRC_TRY(BRC_ALLOCATE(context, &count, n, "aggregates"));
+    BRC_LOCAL(context, n, int64_t, count, "aggregates");
     for (int64_t i = 0; i < nodes->n; ++i) {
         if (aggregate[i] < 0) continue;
         count[aggregate[i]] += 1;
@@ -111,35 +105,27 @@ static brc_status place_aggregates(brc_context *context, const brc_nodes *nodes,
     for (int64_t i = 0; i < n; ++i)
         for (int c = 0; c < 3; ++c)
             coarse->place[i][c] /= (double)count[i];
-    brc_memory_free(count);
     return BRC_OK;
 }
 
 brc_status brc_aggregate(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const double *size,
                          const double *spacing, int32_t *aggregate, brc_nodes *coarse)
 {
-    body_boxes *boxes = NULL;
-    boxed *sorted = NULL;
-    int64_t *box = NULL, n;
+    BRC_FREED body_boxes *boxes = NULL;
+    int64_t n;
     int32_t n_bodies = 0;
-    brc_status status = BRC_OK;
     for (int64_t i = 0; i < nodes->n; ++i)
         if (nodes->body[i] >= n_bodies) n_bodies = nodes->body[i] + 1;
-    BRC_TRY_OR(cleanup, find_boxes(context, nodes, size, spacing, n_bodies, &boxes));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sorted, nodes->n, "aggregates"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &box, nodes->n, "aggregates"));
+    BRC_TRY(find_boxes(context, nodes, size, spacing, n_bodies, &boxes));
+    BRC_LOCAL(context, nodes->n, boxed, sorted, "aggregates");
+    BRC_LOCAL(context, nodes->n, int64_t, box, "aggregates");
     for (int64_t i = 0; i < nodes->n; ++i) {
         box[i] = box_of(&boxes[nodes->body[i]], nodes->place[i]);
         sorted[i] = (boxed){box[i], (int32_t)i};
     }
     qsort(sorted, (size_t)nodes->n, sizeof *sorted, compare);
-    BRC_TRY_OR(cleanup, number_parts(context, rows, sorted, box, aggregate, &n));
-    status = place_aggregates(context, nodes, aggregate, n, coarse);
-cleanup:
-    brc_memory_free(boxes);
-    brc_memory_free(sorted);
-    brc_memory_free(box);
-    return status;
+    BRC_TRY(number_parts(context, rows, sorted, box, aggregate, &n));
+    return place_aggregates(context, nodes, aggregate, n, coarse);
 }
 
 void brc_nodes_free(brc_nodes *nodes)

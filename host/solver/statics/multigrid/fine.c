@@ -16,11 +16,6 @@ brc_bond_moduli brc_bond_moduli_of(const brc_elastic *m)
     return (brc_bond_moduli){2 * m->mu + 3 * lambda, 2 * m->mu - 2 * lambda, frame * m->mu};
 }
 
-static double in_series(double a, double b)
-{
-    return 2 * a * b / (a + b);
-}
-
 /* A bond: unit vector and length of its branch, stiffness along and across it [N/m], of its ends' rotation across and
  * along it [N m]. */
 typedef struct bond {
@@ -51,9 +46,9 @@ static bond bond_of(const brc_fine *f, int64_t e, int64_t h)
     for (int c = 0; c < 3; ++c)
         surface += d->area_vector[3 * h + c] * d->area_vector[3 * h + c];
     const double weight = sqrt(surface) / b.length;
-    b.axial = weight * in_series(own->axial, other->axial);
-    b.shear = weight * in_series(own->shear, other->shear);
-    b.bend = b.twist = weight * square * in_series(own->frame, other->frame);
+    b.axial = weight * brc_in_series(own->axial, other->axial);
+    b.shear = weight * brc_in_series(own->shear, other->shear);
+    b.bend = b.twist = weight * square * brc_in_series(own->frame, other->frame);
     return b;
 }
 
@@ -205,18 +200,16 @@ static brc_status find_spacing(brc_simulation *s, brc_fine *f)
 {
     const brc_domain *d = s->domain;
     int32_t n_bodies = 1;
-    int64_t *count = NULL;
     for (int64_t e = 0; e < d->n_elements; ++e)
         if (d->body[e] >= n_bodies) n_bodies = d->body[e] + 1;
     BRC_TRY(BRC_ALLOCATE(s->context, &f->spacing, n_bodies, "levels"));
-    BRC_TRY(BRC_ALLOCATE(s->context, &count, n_bodies, "levels"));
+    BRC_LOCAL(s->context, n_bodies, int64_t, count, "levels");
     for (int64_t e = 0; e < d->n_elements; ++e) {
         f->spacing[d->body[e]] += d->volume[e];
         count[d->body[e]] += 1;
     }
     for (int32_t b = 0; b < n_bodies; ++b)
         if (count[b] > 0) f->spacing[b] = cbrt(f->spacing[b] / (double)count[b]);
-    brc_memory_free(count);
     return BRC_OK;
 }
 

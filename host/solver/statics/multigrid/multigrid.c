@@ -77,13 +77,10 @@ static brc_status make_passes(brc_multigrid *m)
 /* Integers that the host has wider. */
 static brc_status upload_narrowed(brc_simulation *s, brc_buffer *out, const int64_t *values, int64_t count)
 {
-    int32_t *narrow = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &narrow, count, "multigrid"));
+    BRC_LOCAL(s->context, count, int32_t, narrow, "multigrid");
     for (int64_t i = 0; i < count; ++i)
         narrow[i] = (int32_t)values[i];
-    const brc_status status = brc_upload_int(out, narrow, count);
-    brc_memory_free(narrow);
-    return status;
+    return brc_upload_int(out, narrow, count);
 }
 
 /* Integers by element to rows; padding: fill. */
@@ -91,50 +88,43 @@ static brc_status upload_rows(brc_simulation *s, brc_buffer *out, const int32_t 
                               int32_t fill)
 {
     const brc_layout *layout = s->layout;
-    int32_t *rows = NULL;
-    BRC_TRY(BRC_ALLOCATE(s->context, &rows, layout->n_rows, "multigrid"));
+    BRC_LOCAL(s->context, layout->n_rows, int32_t, rows, "multigrid");
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
         rows[r] = e < 0 ? fill : of_element ? of_element[e] : bits[e];
     }
-    const brc_status status = brc_upload_int(out, rows, layout->n_rows);
-    brc_memory_free(rows);
-    return status;
+    return brc_upload_int(out, rows, layout->n_rows);
 }
 
 /* Moduli of several materials, and blocks of held faces, rows by columns. */
 static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
 {
     brc_simulation *s = m->s;
-    double *moduli = NULL;
-    int32_t *rows = NULL;
-    brc_status status = BRC_OK;
+    BRC_FREED double *moduli = NULL;
+    BRC_FREED int32_t *rows = NULL;
     m->moduli = f->moduli[s->material_of_element[0]];
     BRC_TRY(brc_multigrid_list(s, &brc_multigrid_fields, 0, m));
     if (brc_solves_rotations(s->model)) return BRC_OK;
     if (brc_device_has_many_materials(s->device)) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &moduli, 3 * (int64_t)s->layout->n_rows, "multigrid"));
+        BRC_TRY(BRC_ALLOCATE(s->context, &moduli, 3 * (int64_t)s->layout->n_rows, "multigrid"));
         for (int32_t r = 0; r < s->layout->n_rows; ++r) {
             const int32_t e = s->layout->element_of_row[r];
             const brc_bond_moduli *k = &f->moduli[s->material_of_element[e < 0 ? 0 : e]];
             moduli[3 * (int64_t)r] = k->axial, moduli[3 * (int64_t)r + 1] = k->shear,
                        moduli[3 * (int64_t)r + 2] = k->frame;
         }
-        BRC_TRY_OR(cleanup, brc_upload_coeff(s, m->moduli_of, moduli, 3 * (int64_t)s->layout->n_rows));
+        BRC_TRY(brc_upload_coeff(s, m->moduli_of, moduli, 3 * (int64_t)s->layout->n_rows));
     }
     m->n_ground = f->n_ground;
     if (f->n_ground > 0) {
-        BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &rows, f->n_ground, "multigrid"));
+        BRC_TRY(BRC_ALLOCATE(s->context, &rows, f->n_ground, "multigrid"));
         for (int32_t i = 0; i < f->n_ground; ++i)
             rows[i] = s->layout->row_of_element[f->ground_element[i]];
-        BRC_TRY_OR(cleanup, brc_multigrid_list(s, &brc_multigrid_ground_fields, f->n_ground, m));
-        BRC_TRY_OR(cleanup, brc_upload_int(m->ground_element, rows, f->n_ground));
-        BRC_TRY_OR(cleanup, brc_upload_state(s, m->ground, f->ground[0], 36 * (int64_t)f->n_ground)); /* symmetric */
+        BRC_TRY(brc_multigrid_list(s, &brc_multigrid_ground_fields, f->n_ground, m));
+        BRC_TRY(brc_upload_int(m->ground_element, rows, f->n_ground));
+        BRC_TRY(brc_upload_state(s, m->ground, f->ground[0], 36 * (int64_t)f->n_ground)); /* symmetric */
     }
-cleanup:
-    brc_memory_free(moduli);
-    brc_memory_free(rows);
-    return status;
+    return BRC_OK;
 }
 
 /* The finest level: inverse [n_elements][21]. */
@@ -154,14 +144,11 @@ static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, co
 {
     brc_simulation *s = m->s;
     brc_level *l = &m->level[0];
-    int32_t *start = NULL, *member = NULL;
-    double *arm = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, brc_multigrid_list(s, &brc_multigrid_aggregate_fields, coarse->n, l));
-    BRC_TRY_OR(cleanup, upload_rows(s, l->aggregate, aggregate, NULL, -1));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &start, coarse->n + 2, "multigrid"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &member, nodes->n, "multigrid"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &arm, 3 * (int64_t)s->layout->n_rows, "multigrid"));
+    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_aggregate_fields, coarse->n, l));
+    BRC_TRY(upload_rows(s, l->aggregate, aggregate, NULL, -1));
+    BRC_LOCAL(s->context, coarse->n + 2, int32_t, start, "multigrid");
+    BRC_LOCAL(s->context, nodes->n, int32_t, member, "multigrid");
+    BRC_LOCAL(s->context, 3 * (int64_t)s->layout->n_rows, double, arm, "multigrid");
     for (int64_t e = 0; e < nodes->n; ++e)
         if (aggregate[e] >= 0) start[aggregate[e] + 2] += 1;
     for (int64_t i = 1; i <= coarse->n; ++i)
@@ -172,14 +159,9 @@ static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, co
         for (int c = 0; c < 3; ++c)
             arm[3 * (int64_t)s->layout->row_of_element[e] + c] = nodes->place[e][c] - coarse->place[aggregate[e]][c];
     }
-    BRC_TRY_OR(cleanup, brc_upload_int(l->member_start, start, coarse->n + 1));
-    BRC_TRY_OR(cleanup, brc_upload_int(l->member, member, nodes->n));
-    BRC_TRY_OR(cleanup, brc_upload_coeff(s, l->arm, arm, 3 * (int64_t)s->layout->n_rows));
-cleanup:
-    brc_memory_free(start);
-    brc_memory_free(member);
-    brc_memory_free(arm);
-    return status;
+    BRC_TRY(brc_upload_int(l->member_start, start, coarse->n + 1));
+    BRC_TRY(brc_upload_int(l->member, member, nodes->n));
+    return brc_upload_coeff(s, l->arm, arm, 3 * (int64_t)s->layout->n_rows);
 }
 
 /* Blocks [count][6][6] to those of a device buffer, each by columns. */
@@ -187,12 +169,9 @@ static brc_status upload_blocks(brc_simulation *s, brc_buffer *out, int64_t coun
                                 const brc_narrow *narrow)
 {
     enum { CHUNK = 4096 };
-    const int bytes = brc_precision_state_bytes(brc_device_get_precision(s->device));
-    double *part = NULL;
-    float *single = NULL;
-    brc_status status = BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &part, 36 * CHUNK, "multigrid"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &single, 36 * CHUNK, "multigrid"));
+    const int bytes = brc_state_bytes(s);
+    BRC_LOCAL(s->context, 36 * CHUNK, double, part, "multigrid");
+    BRC_LOCAL(s->context, 36 * CHUNK, float, single, "multigrid");
     for (int64_t first = 0; first < count; first += CHUNK) {
         const int64_t n = count - first < CHUNK ? count - first : CHUNK;
         for (int64_t k = 0; k < n; ++k)
@@ -202,13 +181,10 @@ static brc_status upload_blocks(brc_simulation *s, brc_buffer *out, int64_t coun
                     part[36 * k + 6 * c + r] = value;
                     single[36 * k + 6 * c + r] = (float)value;
                 }
-        BRC_TRY_OR(cleanup, brc_buffer_write(out, 36 * first * bytes,
-                                             bytes == 8 ? (const void *)part : (const void *)single, 36 * n * bytes));
+        BRC_TRY(brc_buffer_write(out, 36 * first * bytes, bytes == 8 ? (const void *)part : (const void *)single,
+                                 36 * n * bytes));
     }
-cleanup:
-    brc_memory_free(part);
-    brc_memory_free(single);
-    return status;
+    return BRC_OK;
 }
 
 static brc_status upload_prolongation(brc_simulation *s, brc_level *l, const brc_prolongation *p)
@@ -252,14 +228,12 @@ static brc_status weigh(brc_multigrid *m, int level, double given)
 static brc_status solve_coarsest(brc_multigrid *m, const brc_stored_rows *rows)
 {
     brc_simulation *s = m->s;
-    double *inverse = NULL;
     bool done = false;
     if (rows->n > MOST_SOLVED) return BRC_OK;
-    BRC_TRY(BRC_ALLOCATE(s->context, &inverse, 36 * rows->n * rows->n, "coarsest level"));
+    BRC_LOCAL(s->context, 36 * rows->n * rows->n, double, inverse, "coarsest level");
     brc_status status = brc_invert_rows(s->context, rows, inverse, &done);
     if (status == BRC_OK && done) status = brc_multigrid_list(s, &brc_multigrid_coarsest_fields, rows->n * rows->n, m);
     if (status == BRC_OK && done) status = brc_upload_state(s, m->inverse, inverse, 36 * rows->n * rows->n);
-    brc_memory_free(inverse);
     return status;
 }
 
@@ -350,16 +324,15 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
 {
     const int64_t held = brc_memory_held(), on_device = brc_device_bytes(s->device);
     const double since = omp_get_wtime();
-    brc_multigrid *m = NULL;
-    brc_fine fine = {0};
-    brc_status status = BRC_OK;
+    BRC_ENDS_WITH(brc_multigrid_free) brc_multigrid *m = NULL;
+    BRC_ENDS_WITH(brc_fine_free) brc_fine fine = {0};
     *out = NULL;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &m, 1, "multigrid"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &m, 1, "multigrid"));
     m->s = s;
-    BRC_TRY_OR(cleanup, make_passes(m));
+    BRC_TRY(make_passes(m));
     if (!(origin->weight > 0) && s->fracture) origin->moment = brc_fracture_moment(s);
-    BRC_TRY_OR(cleanup, brc_fine_create(s, origin->moment, &fine));
-    BRC_TRY_OR(cleanup, make_levels(m, &fine, origin->weight));
+    BRC_TRY(brc_fine_create(s, origin->moment, &fine));
+    BRC_TRY(make_levels(m, &fine, origin->weight));
     origin->weight = m->level[0].weight;
     m->report = (brc_multigrid_report){.n_levels = m->n_levels,
                                        .device_bytes = brc_device_bytes(s->device) - on_device,
@@ -369,10 +342,7 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
         m->report.nodes[i] = i == 0 ? s->domain->n_elements : m->level[i].n;
     *out = m;
     m = NULL;
-cleanup:
-    brc_fine_free(&fine);
-    brc_multigrid_free(&m);
-    return status;
+    return BRC_OK;
 }
 
 void brc_multigrid_free(brc_multigrid **multigrid)

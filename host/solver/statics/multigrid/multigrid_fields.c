@@ -2,22 +2,10 @@
 #include "multigrid_internal.h"
 
 /* Rows of the finest level; every rank has all of them. */
-static int64_t each_finest(const brc_wants *w)
-{
-    return w->layout->n_rows;
-}
-static int64_t each_finest_element(const brc_wants *w)
-{
-    return w->domain->n_elements;
-}
-static bool of_beams(const brc_wants *w)
-{
-    return brc_solves_rotations(w->model);
-}
-static bool of_many(const brc_wants *w)
-{
-    return w->many_materials && !of_beams(w);
-}
+BRC_COUNTED(each_finest, w->layout->n_rows)
+BRC_COUNTED(each_finest_element, w->domain->n_elements)
+BRC_WANTED(of_beams, brc_solves_rotations(w->model))
+BRC_WANTED(of_many, w->many_materials && !of_beams(w))
 
 #define WORDS "multigrid"
 #define AT(member) BRC_FIELD_AT(brc_multigrid, member)

@@ -76,8 +76,7 @@ brc_status brc_invert_blocks(brc_context *context, const brc_rows *rows, const u
 brc_status brc_invert_rows(brc_context *context, const brc_stored_rows *rows, double *inverse, bool *done)
 {
     const int n = (int)(6 * rows->n);
-    double *scale = NULL;
-    BRC_TRY(BRC_ALLOCATE(context, &scale, n, "coarsest level"));
+    BRC_LOCAL(context, n, double, scale, "coarsest level");
     memset(inverse, 0, (size_t)n * (size_t)n * sizeof *inverse);
     for (int64_t i = 0; i < rows->n; ++i)
         for (int64_t k = rows->start[i]; k < rows->start[i + 1]; ++k)
@@ -96,6 +95,5 @@ brc_status brc_invert_rows(brc_context *context, const brc_stored_rows *rows, do
     for (int64_t r = 0; *done && r < n; ++r)
         for (int64_t c = r; c < n; ++c)
             inverse[c * n + r] = inverse[r * n + c] *= scale[r] * scale[c];
-    brc_memory_free(scale);
     return BRC_OK;
 }
