@@ -28,7 +28,7 @@ STABILITY = os.path.join(os.environ["BRC_SOURCE_DIR"], "tests", "stability")
 # Stages of the scenes of tests/stability, made short: some reach what they are about in these steps, none is long.
 SHORT = {"release": "stages.1.solver.dynamic.steps=300", "resonance": "stages.0.solver.dynamic.duration=4 ms"}
 # Left halfway: contact, strikers and loads; the same and breaks, with rotations; breaks that soften, of cells and of beams.
-GO_ON = {"cells-two-materials": [], "published-breaks": [],
+GO_ON = {"cells-two-materials": [], "published-breaks": ["output.checkpoint.every=13 us"],
          "ball-breaks+softening": digests.small.overrides("ball-breaks+softening") + ["output.checkpoint.every=40 us"],
          "beams-fracture": digests.small.overrides("beams-fracture") + ["output.checkpoint.wall=1 us"]}
 FAILURES = []
