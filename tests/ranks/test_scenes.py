@@ -66,7 +66,8 @@ def texts_of(program, name, precision, folder):
 def same(folder, name, counts, precision="double"):
     short = name.replace("/", "-")
     alone = texts_of(PLAIN, name, precision, os.path.join(folder, f"{short}-1"))
-    if alone and "exit" in alone:
+    known = {digests.read_reference(level)[1].get((name, precision)) for level in digests.LEVELS}  # no equilibrium in less than double
+    if alone and "exit" in alone and digests.digest(alone) not in known:
         FAILURES.append(f"{name} {precision} on one rank: exit {alone['exit']}")
     for n in counts if alone else []:
         several = texts_of(launcher(folder, n), name, precision, os.path.join(folder, f"{short}-{n}"))

@@ -84,6 +84,10 @@ def same(folder, n_cells, environment):
 def memory(folder):
     one, two = (run(n, *line(f"{folder}/memory-{n}", 100000, "0.05 us")) for n in (1, 2))
     expect(two <= 0.6 * one, f"memory of a rank of two: {two / one:.2f} of {one / 1e6:.0f} MB (0.6 asked)")
+    check = ["check", *line(f"{folder}/priced", 100000, "0.05 us")[1:2], *line("", 100000, "0.05 us")[4:], "--ranks", "2"]
+    done = subprocess.run([PLAIN, *check], capture_output=True, text=True, check=True)
+    own, once = (1e6 * float(word) for word in re.search(r"memory: ([\d.]+) MB a rank .* and ([\d.]+) MB once", done.stdout).groups())
+    expect(two <= own + once / 2 < one, f"memory of a rank of two: {two / 1e6:.0f} MB, told before: {(own + once / 2) / 1e6:.0f} MB")
 
 
 def sent():
