@@ -145,6 +145,45 @@ cleanup:
     return status;
 }
 
+/* ---- what is inside ---- */
+
+static bool is_inside(const shares *h, int32_t slice)
+{
+    const int32_t first = h->first_slice[h->mine] * h->rows.slice, end = h->first_slice[h->mine + 1] * h->rows.slice;
+    for (int64_t k = (int64_t)h->slot_start[slice] * h->rows.slice;
+         k < (int64_t)h->slot_start[slice + 1] * h->rows.slice; ++k)
+        if (h->rows.neighbour[k] < first || h->rows.neighbour[k] >= end) return false;
+    return true;
+}
+
+/* The range takes its place among the longest so far, of which the shortest goes where there is no room. */
+static void keep_inside(shares *h, brc_inside range)
+{
+    int32_t shortest = h->n_inside;
+    for (int32_t k = 0; k < h->n_inside && h->n_inside == BRC_MOST_INSIDE; ++k)
+        if (shortest == h->n_inside ||
+            h->inside[k].end - h->inside[k].first < h->inside[shortest].end - h->inside[shortest].first)
+            shortest = k;
+    if (h->n_inside == BRC_MOST_INSIDE) {
+        if (h->inside[shortest].end - h->inside[shortest].first >= range.end - range.first) return;
+        memmove(h->inside + shortest, h->inside + shortest + 1,
+                (size_t)(h->n_inside - shortest - 1) * sizeof *h->inside);
+        --h->n_inside;
+    }
+    h->inside[h->n_inside++] = range;
+}
+
+/* Border slices lie all along a rank's range: ranges shorter than 1/64 of it are not worth a launch. */
+static void find_inside(shares *h)
+{
+    const int32_t first = h->first_slice[h->mine], end = h->first_slice[h->mine + 1], least = (end - first) / 64 + 1;
+    for (int32_t slice = first, from = first; slice <= end; ++slice) {
+        if (slice < end && is_inside(h, slice)) continue;
+        if (slice - from >= least) keep_inside(h, (brc_inside){from, slice});
+        from = slice + 1;
+    }
+}
+
 brc_status brc_device_share(brc_device *device, const brc_rows_of_device *rows)
 {
     brc_context *context = device->context;
@@ -169,6 +208,7 @@ brc_status brc_device_share(brc_device *device, const brc_rows_of_device *rows)
     BRC_TRY(brc_ranks_most(context, 1, &most_local));
     h->ranks_meet = most_local > 1;
     BRC_TRY(find_rows(context, h));
+    find_inside(h);
     h->rows.slot_start = h->rows.neighbour = NULL; /* the caller's */
     return BRC_OK;
 }

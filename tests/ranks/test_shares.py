@@ -101,12 +101,22 @@ def sent():
     expect(abs(sends / (240 * ghosts) - 1) <= 0.2, f"a step sends {sends:.0f} bytes, {sends / (240 * ghosts):.3f} of what {ghosts} rows have (0.2 asked)")
 
 
+def hidden():
+    """Between ranks far from each other messages of 50 us fly while the inside is computed; the surface of half a cube leaves that much."""
+    process = under.start(2, [PROGRAM, "bench", "ranks", "--problems", "step", "--sizes", "20000", "--steps", "20", "--threads", "1"], "0,50")
+    output, errors = process.communicate(timeout=300)
+    assert process.returncode == 0, errors
+    messages, flight = (float(re.search(pattern, output).group(1)) for pattern in (r"([\d.]+) messages", r"in flight ([\d.e-]+) s"))
+    expect(flight >= messages * 50e-6, f"{messages:.0f} messages a step fly {1e6 * flight:.0f} us while rows inside are computed")
+
+
 with tempfile.TemporaryDirectory() as temporary:
     os.chdir(temporary)
     for k, (cells, chosen) in enumerate(((9000, {}), (17000, {"BRECCIA_ISA": "v2"}))):
         same(f"{temporary}/{k}", cells, chosen)
     memory(temporary)
     sent()
+    hidden()
 for failure in FAILURES:
     print("shares: " + failure)
 sys.exit(1 if FAILURES else 0)
