@@ -61,6 +61,7 @@ struct brc_shares {
 struct brc_rows_among {
     int32_t n;
     int32_t *row;             /* [n] ascending */
+    char *mark;               /* [n_rows] 0 */
     int64_t *slots;           /* [n + 1] slots of the rows before */
     int64_t *n_of, *slots_of; /* [n_ranks] rows of each rank, and their slots */
     int64_t first;            /* place of the first of this rank */
