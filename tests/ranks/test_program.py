@@ -73,7 +73,7 @@ def bench(folder):
     for row in rows[:3]:  # ghosts of a rank are rows of others, at least those of one of its faces
         own, others = row["rows_per_rank"], row["elements"] - row["rows_per_rank"]
         expect(own ** (2 / 3) < row["ghosts_per_rank"] <= row["ghosts_most"] < others, f"ghosts: {row}")
-        expect(1 <= row["neighbours_most"] < row["ranks"] and 0 < row["inside_least"] < 1, f"neighbours: {row}")
+        expect(1 <= row["neighbours_most"] < row["ranks"] and 0 < row["inside_least"] < 1 and 0 <= row["meanwhile_least"] <= row["inside_least"], f"neighbours: {row}")
         expect(row["exchanged_bytes_most"] == 240 * row["ghosts_most"], f"bytes: {row}")
 
 
