@@ -56,13 +56,39 @@ static int32_t owner_of(const order *o, int64_t n, int64_t row)
 
 typedef struct surface {
     int64_t rows, ghosts, neighbours, inside; /* inside: own rows that gather no ghost */
+    int64_t meanwhile;                        /* own rows that are computed while ghosts are on their way */
 } surface;
+
+/* Ranges of slices inside, the longest of them (host/device/shares_rows.c). */
+typedef struct ranges {
+    int64_t least, now, longest[16];
+} ranges;
+
+static void end_range(ranges *r)
+{
+    const int n = (int)(sizeof r->longest / sizeof *r->longest);
+    int shortest = 0;
+    for (int k = 1; k < n; ++k)
+        if (r->longest[k] < r->longest[shortest]) shortest = k;
+    if (r->now >= r->least && r->now > r->longest[shortest]) r->longest[shortest] = r->now;
+    r->now = 0;
+}
+
+static int64_t rows_of(const ranges *r)
+{
+    int64_t sum = 0;
+    for (size_t k = 0; k < sizeof r->longest / sizeof *r->longest; ++k)
+        sum += r->longest[k];
+    return sum * SLICE;
+}
 
 static surface look_at(order *o, int64_t n, int32_t rank)
 {
     const brc_domain *d = o->domain;
     const int64_t first = first_row(o, n, rank), end = first_row(o, n, rank + 1);
     surface s = {.rows = end - first};
+    ranges r = {.least = s.rows / SLICE / 64 + 1};
+    bool slice_inside = true;
     for (int64_t row = first; row < end; ++row) {
         const int32_t e = o->layout->element_of_row[row];
         bool inside = true;
@@ -77,14 +103,21 @@ static surface look_at(order *o, int64_t n, int32_t rank)
             o->ghost_of[j] = o->seen[owner] = rank;
         }
         s.inside += inside;
+        slice_inside &= inside;
+        if (row % SLICE < SLICE - 1 && row < end - 1) continue;
+        r.now += slice_inside;
+        if (!slice_inside) end_range(&r);
+        slice_inside = true;
     }
+    end_range(&r);
+    s.meanwhile = rows_of(&r) < s.rows ? rows_of(&r) : s.rows;
     return s;
 }
 
 static brc_status add_surface(const brc_ranks_request *r, order *o, int64_t n, brc_rows *rows)
 {
     surface sum = {0}, most = {0};
-    double inside_least = 1;
+    double inside_least = 1, meanwhile_least = 1;
     memset(o->ghost_of, -1, (size_t)o->domain->n_elements * sizeof *o->ghost_of);
     memset(o->seen, -1, MOST_RANKS * sizeof *o->seen);
     for (int32_t k = 0; k < n; ++k) {
@@ -94,6 +127,7 @@ static brc_status add_surface(const brc_ranks_request *r, order *o, int64_t n, b
         if (s.ghosts > most.ghosts) most.ghosts = s.ghosts;
         if (s.neighbours > most.neighbours) most.neighbours = s.neighbours;
         inside_least = fmin(inside_least, (double)s.inside / (double)s.rows);
+        meanwhile_least = fmin(meanwhile_least, (double)s.meanwhile / (double)s.rows);
     }
     const double ranks = (double)n, ghosts = (double)sum.ghosts / ranks, own = (double)sum.rows / ranks;
     begin_row(rows, "surface", n);
@@ -108,6 +142,7 @@ static brc_status add_surface(const brc_ranks_request *r, order *o, int64_t n, b
     brc_rows_number(rows, "neighbours_per_rank", (double)sum.neighbours / ranks);
     brc_rows_integer(rows, "neighbours_most", most.neighbours);
     brc_rows_number(rows, "inside_least", inside_least);
+    brc_rows_number(rows, "meanwhile_least", meanwhile_least);
     brc_rows_integer(rows, "exchanged_bytes_most", most.ghosts * (STATE_NUMBERS + COEFF_NUMBERS) * 8);
     return close_row(r, rows);
 }

@@ -6,14 +6,14 @@ ROWS.csv: surfaces of `breccia bench ranks` (default: those of bench/results). A
     compute   n x seconds a row of its device (KINDS)
     exchange  4 x neighbours x latency + 240 bytes x ghosts / bandwidth; ghosts = c n^(2/3), of the rank with most
     calls     one reduction over the ranks, 2 log2(ranks) x latency
-Without overlap the three follow one another; with it the exchange flies while rows inside are computed.
+Without overlap the three follow one another; with it the exchange flies while rows inside are computed, in 16 ranges at most.
 """
 import argparse
 import csv
 import math
 import os
 
-RESULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results", "2026-11-23-ranks-surface.csv")
+RESULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results", "2026-11-26-ranks-surface.csv")
 EXCHANGES, GHOST_BYTES = 4, 240  # of dlsm in double: displacement; gradient, stress, flux
 FLOOR_BYTES = 3490.2  # least bytes a row (bench throughput, 1e6 cells)
 # Seconds a row: measured; the same part of a bandwidth of 200 GB/s; what an H200 would take at least.
@@ -23,7 +23,7 @@ RESIDENT_BYTES = 3717  # a row, domain and all (bench ranks, 1e6 cells, one rank
 
 def surfaces(path):
     with open(path, encoding="utf-8") as file:
-        return [{key: float(row[key]) for key in ("ranks", "rows_per_rank", "ghosts_most", "neighbours_most", "inside_least")}
+        return [{key: float(row[key]) for key in ("ranks", "rows_per_rank", "ghosts_most", "neighbours_most", "meanwhile_least")}
                 for row in csv.DictReader(file) if row["quantity"] == "surface"]
 
 
@@ -38,7 +38,7 @@ def step(all_rows, ranks, rows, a_row, latency, bandwidth):
     like = nearest(all_rows, ranks, rows)
     scale = rows / like["rows_per_rank"]
     ghosts = like["ghosts_most"] * scale ** (2 / 3)
-    border = min(1, (1 - like["inside_least"]) * scale ** (-1 / 3))
+    border = min(1, (1 - like["meanwhile_least"]) * scale ** (-1 / 8))  # counted on 8 ranks of 1e5 and 1e6 rows in all
     compute, calls = rows * a_row, 2 * math.log2(ranks) * latency
     exchange = EXCHANGES * like["neighbours_most"] * latency + GHOST_BYTES * ghosts / bandwidth
     return compute, exchange, calls, border * compute + max((1 - border) * compute, exchange) + calls, ghosts, like["neighbours_most"]

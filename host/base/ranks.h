@@ -30,6 +30,7 @@ bool brc_ranks_signal_is_loss(void);
 typedef struct brc_ranks_place {
     int32_t mine, count;        /* 0 .. count - 1 */
     int32_t local, local_count; /* the same among those of this machine (node), in the order of ranks */
+    bool far;                   /* some are on other machines: messages take time in which a rank can compute */
     const char *node;           /* name of this machine; static storage, as is the next */
     const char *engine;         /* the implementation and its version: "one rank", or as MPI tells */
 } brc_ranks_place;
@@ -69,6 +70,8 @@ void brc_exchange_free(brc_exchange **exchange);
 /* Messages leave: send buffers stay as they are, receive buffers are not read until brc_exchange_finish. Neighbours
  * alone must do the same, in the same order of exchanges. */
 brc_status brc_exchange_begin(brc_context *context, brc_exchange *exchange);
+/* Messages that fly go on while others compute: MPI may do nothing between its calls. Now and then, not collective. */
+brc_status brc_exchange_poke(brc_context *context, brc_exchange *exchange);
 /* Every message has come and gone. */
 brc_status brc_exchange_finish(brc_context *context, brc_exchange *exchange);
 

@@ -50,7 +50,7 @@ static struct {
     MPI_Win window;
     node_table *node;
     int tag;
-    unsigned delay_us; /* for tests: messages are late by up to this */
+    unsigned delay_us, latency_us; /* for tests: messages leave late by up to this, and take so long at least */
     uint64_t draw;
     brc_ranks_cost cost;
     char name[MPI_MAX_PROCESSOR_NAME], engine[MPI_MAX_LIBRARY_VERSION_STRING];
@@ -112,11 +112,12 @@ static brc_status check(brc_context *context, int code, const char *what)
     return status;
 }
 
-static void be_late(void)
+/* Before anything is sent; late, where a test wants that. */
+static brc_status enter(brc_context *context)
 {
-    if (ranks.delay_us == 0) return;
     ranks.draw = ranks.draw * 6364136223846793005u + 1442695040888963407u;
-    usleep((unsigned)((ranks.draw >> 33) % (ranks.delay_us + 1)));
+    if (ranks.delay_us > 0) usleep((unsigned)((ranks.draw >> 33) % (ranks.delay_us + 1)));
+    return say_apart(context);
 }
 
 static brc_status hear_alarm(brc_context *context)
@@ -180,6 +181,9 @@ static void share_table(void)
     MPI_Comm_split_type(ranks.all, MPI_COMM_TYPE_SHARED, ranks.here.mine, MPI_INFO_NULL, &node);
     MPI_Comm_rank(node, &ranks.here.local);
     MPI_Comm_size(node, &ranks.here.local_count);
+    int most = ranks.here.local_count;
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, ranks.all);
+    ranks.here.far = most < ranks.here.count || ranks.latency_us > 0;
     if (ranks.here.local == 0)
         bytes = (MPI_Aint)(sizeof(node_table) + (size_t)ranks.here.local_count * sizeof ranks.node->of[0]);
     MPI_Win_allocate_shared(bytes, 1, MPI_INFO_NULL, node, &ranks.node, &ranks.window);
@@ -208,7 +212,7 @@ brc_status brc_ranks_start(brc_context *context, int *argc, char ***argv)
     MPI_Get_processor_name(ranks.name, &length);
     MPI_Get_library_version(ranks.engine, &length);
     ranks.engine[strcspn(ranks.engine, ",\n")] = '\0';
-    ranks.delay_us = delay ? (unsigned)strtoul(delay, NULL, 10) : 0;
+    if (delay) (void)sscanf(delay, "%u,%u", &ranks.delay_us, &ranks.latency_us);
     ranks.draw = (uint64_t)getpid();
     if (ranks.here.count == 1) return BRC_OK;
     share_table();
@@ -328,20 +332,27 @@ void brc_exchange_free(brc_exchange **exchange)
 
 brc_status brc_exchange_begin(brc_context *context, brc_exchange *exchange)
 {
-    BRC_TRY(say_apart(context));
-    be_late();
+    BRC_TRY(enter(context));
     exchange->begun_s = brc_clock_s();
     ranks.cost.messages += exchange->messages;
     ranks.cost.bytes += exchange->bytes;
     return exchange->n > 0 ? check(context, MPI_Startall(exchange->n, exchange->request), "an exchange") : BRC_OK;
 }
 
+brc_status brc_exchange_poke(brc_context *context, brc_exchange *exchange)
+{
+    int done;
+    return check(context, MPI_Testall(exchange->n, exchange->request, &done, MPI_STATUSES_IGNORE), "an exchange");
+}
+
 brc_status brc_exchange_finish(brc_context *context, brc_exchange *exchange)
 {
-    BRC_TRY(say_apart(context));
-    be_late();
+    BRC_TRY(enter(context));
+    const double now = brc_clock_s(), left = exchange->begun_s + 1e-6 * ranks.latency_us - now;
     ++ranks.cost.exchanges;
-    ranks.cost.flight_s += brc_clock_s() - exchange->begun_s;
+    ranks.cost.flight_s += now - exchange->begun_s;
+    if (left > 0) usleep((unsigned)(1e6 * left));
+    ranks.cost.exchange_wait_s += brc_clock_s() - now;
     return wait_for(context, exchange->n, exchange->request, "an exchange", &ranks.cost.exchange_wait_s);
 }
 
@@ -353,9 +364,8 @@ brc_status brc_ranks_gather_all(brc_context *context, const void *mine, int64_t 
     int64_t sum = 0;
     MPI_Datatype item = MPI_DATATYPE_NULL;
     MPI_Request request;
-    brc_status status = say_apart(context);
+    brc_status status = enter(context);
     if (status != BRC_OK) return status;
-    be_late();
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &n, ranks.here.count, "what ranks send"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &first, ranks.here.count, "what ranks send"));
     for (int k = 0; k < ranks.here.count; sum += n_of[k++]) {
@@ -428,9 +438,8 @@ static brc_status move_all(brc_context *context, const void *send, const int64_t
 brc_status brc_ranks_gather_first(brc_context *context, const void *mine, const int64_t *bytes_of, void *all)
 {
     int64_t *send = NULL, *none = NULL;
-    brc_status status = say_apart(context);
+    brc_status status = enter(context);
     if (status != BRC_OK) return status;
-    be_late();
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &send, ranks.here.count, "what ranks send"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &none, ranks.here.count, "what ranks send"));
     send[0] = bytes_of[ranks.here.mine];
@@ -444,9 +453,8 @@ cleanup:
 brc_status brc_ranks_broadcast(brc_context *context, int32_t from, void *data, int64_t bytes)
 {
     MPI_Request request;
-    BRC_TRY(say_apart(context));
+    BRC_TRY(enter(context));
     if (ranks.here.count == 1) return BRC_OK;
-    be_late();
     for (int64_t at = 0; at < bytes; at += PIECE) {
         const int some = (int)(bytes - at < PIECE ? bytes - at : PIECE);
         BRC_TRY(complete(context, MPI_Ibcast((char *)data + at, some, MPI_BYTE, from, ranks.all, &request), &request,
@@ -461,8 +469,7 @@ brc_status brc_ranks_trade(brc_context *context, const void *send, const int64_t
     MPI_Request request;
     int64_t sum = 0;
     *received = NULL;
-    BRC_TRY(say_apart(context));
-    be_late();
+    BRC_TRY(enter(context));
     BRC_TRY(complete(context,
                      MPI_Ialltoall(send_bytes, 1, MPI_INT64_T, receive_bytes, 1, MPI_INT64_T, ranks.all, &request),
                      &request, "a trade"));
@@ -476,9 +483,8 @@ brc_status brc_ranks_reduce(brc_context *context, brc_reduction reduction, int64
 {
     const MPI_Op of[] = {[BRC_SUM] = MPI_SUM, [BRC_LEAST] = MPI_MIN, [BRC_MOST] = MPI_MAX, [BRC_ANY_BIT] = MPI_BOR};
     MPI_Request request;
-    BRC_TRY(say_apart(context));
+    BRC_TRY(enter(context));
     if (ranks.here.count == 1) return BRC_OK;
-    be_late();
     return complete(context,
                     MPI_Iallreduce(MPI_IN_PLACE, values, (int)n, MPI_INT64_T, of[reduction], ranks.all, &request),
                     &request, "a reduction");
@@ -487,8 +493,7 @@ brc_status brc_ranks_reduce(brc_context *context, brc_reduction reduction, int64
 brc_status brc_ranks_barrier(brc_context *context)
 {
     MPI_Request request;
-    BRC_TRY(say_apart(context));
+    BRC_TRY(enter(context));
     if (ranks.here.count == 1) return BRC_OK;
-    be_late();
     return complete(context, MPI_Ibarrier(ranks.all, &request), &request, "a barrier");
 }

@@ -70,6 +70,12 @@ brc_status brc_exchange_begin(brc_context *context, brc_exchange *exchange)
     return BRC_OK;
 }
 
+brc_status brc_exchange_poke(brc_context *context, brc_exchange *exchange)
+{
+    (void)context, (void)exchange;
+    return BRC_OK;
+}
+
 brc_status brc_exchange_finish(brc_context *context, brc_exchange *exchange)
 {
     (void)context, (void)exchange;

@@ -2,6 +2,7 @@
 #include "price/check_scene.h"
 #include "command.h"
 #include "price/check_brief.h"
+#include "price/check_ranks.h"
 #include "price/pace.h"
 #include "price/price.h"
 #include "price/price_file.h"
@@ -29,6 +30,7 @@ static const brc_option options[] = {
      "its end"},
     {"effects", 'E', NULL, false,
      "also name the kernels that the trial launched and the arrays on the device, with launches and bytes"},
+    {"ranks", 'r', "N", false, "also tell seconds and memory of N ranks of MPI"},
     {"estimate", 'e', NULL, false, "build no domain: counts and memory of it only, no time step and no seconds"},
 };
 
@@ -168,6 +170,7 @@ typedef struct asked {
     brc_device_request request;
     const char *folder; /* NULL: no price.json */
     bool brief, effects;
+    int32_t n_ranks;
     FILE *details; /* where the long report goes; not shown: a stream that keeps nothing */
     bool all;
 } asked;
@@ -179,6 +182,7 @@ static brc_status price(brc_context *context, const asked *a, brc_scene *scene, 
     brc_check check = {.details = a->details, .built = print_counts};
     const brc_setup *setup = &check.setup;
     brc_price_error own = {.worst = -1};
+    brc_check_ranks ranks = {.n_ranks = a->n_ranks};
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, brc_check_build(context, scene, request, brc_pace_start_s(request), &check));
     print_setup(a->details, setup, request->precision);
@@ -188,8 +192,10 @@ static brc_status price(brc_context *context, const asked *a, brc_scene *scene, 
     BRC_TRY_OR(cleanup, brc_check_try(context, request, a->brief, &check));
     print_multigrid(setup);
     if (a->effects) print_parts(setup);
+    BRC_TRY_OR(cleanup, brc_check_ranks_look(context, setup, request->precision, &ranks));
     BRC_TRY_OR(cleanup, brc_check_price(context, scene, request, &check));
     if (!a->all) brc_check_brief_trial(stdout, scene, setup, &check.trial, &check.told);
+    brc_check_ranks_tell(stdout, scene, &check.told, &ranks);
     const brc_price_of of = {yaml, brc_device_get_info(setup->device[0])->selector, request->precision,
                              request->n_threads};
     if (a->folder && check.told.known) BRC_TRY_OR(cleanup, brc_price_file_write(context, a->folder, &of, &check.told));
@@ -209,12 +215,17 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     brc_status status = BRC_OK;
     brc_scene *scene = NULL;
     char *yaml = NULL;
-    int64_t n_threads;
+    int64_t n_threads, n_ranks;
     brc_precision precision;
     const bool all = brc_arguments_value(arguments, "all") != NULL;
     FILE *const none = all ? NULL : fopen("/dev/null", "w"), *const details = none ? none : stdout;
     BRC_TRY_OR(cleanup, brc_arguments_integer(context, arguments, "threads", 0, 4096, 0, &n_threads));
+    BRC_TRY_OR(cleanup, brc_arguments_integer(context, arguments, "ranks", 1, BRC_CHECK_MOST_RANKS, 1, &n_ranks));
     BRC_TRY_OR(cleanup, brc_arguments_precision(context, arguments, &precision));
+    if (n_ranks > 1 && brc_arguments_value(arguments, "estimate")) {
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "breccia check: --ranks needs a domain; leave out --estimate");
+        goto cleanup;
+    }
     int n_overrides;
     const char *const *overrides = brc_arguments_values(arguments, "set", &n_overrides);
     BRC_TRY_OR(cleanup, brc_scene_read(context, arguments->positional[0], n_overrides, overrides, &scene));
@@ -230,6 +241,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
         .folder = folder,
         .brief = brc_arguments_value(arguments, "brief") != NULL,
         .effects = brc_arguments_value(arguments, "effects") != NULL,
+        .n_ranks = (int32_t)n_ranks,
         .details = details,
         .all = all};
     if (folder) BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder)); /* before the trial: it may take minutes */

@@ -29,6 +29,8 @@ typedef struct shared {
     brc_array_of items;
     int64_t first, end;     /* own items */
     int64_t numbers, block; /* BRC_OF_BLOCKS: numbers in all and of a block */
+    int n_flying;           /* arrays whose rows of others come while the inside is computed */
+    brc_flight flying[BRC_KERNEL_MOST_ARGS];
 } shared;
 
 static brc_buffer *buffer_of(const shared *l, int a)
@@ -149,8 +151,22 @@ static void find_way(shared *l, int64_t n_items)
 
 /* ---- what it reads ---- */
 
+/* Rows of others: at once, or while rows inside are computed. Between ranks of one machine a message is a copy that
+ * processors make, and nothing flies; images of other devices are copies, made whole. */
+static brc_status bring_beside(shared *l, brc_use use, brc_buffer *buffer)
+{
+    for (int k = 0; k < l->n_flying; ++k)
+        if (l->flying[k].buffer == buffer) return BRC_OK;
+    if (use != BRC_USE_GATHER || (l->items != BRC_OF_ROWS && l->items != BRC_OF_GROUPS) ||
+        buffer->device->info.kind != BRC_DEVICE_CPU || !brc_ranks_here().far)
+        return brc_share_bring_near(buffer);
+    BRC_TRY(brc_share_begin_near(buffer, &l->flying[l->n_flying]));
+    ++l->n_flying;
+    return BRC_OK;
+}
+
 /* One array before the launch. */
-static brc_status bring_one(const shared *l, brc_use use, brc_buffer *buffer, bool only_rows)
+static brc_status bring_one(shared *l, brc_use use, brc_buffer *buffer, bool only_rows)
 {
     const shares *h = l->kernel->device->shares;
     const bool near = buffer->of == BRC_OF_ROWS || (buffer->of == BRC_OF_SLOTS && buffer->number > 0);
@@ -171,10 +187,10 @@ static brc_status bring_one(const shared *l, brc_use use, brc_buffer *buffer, bo
     }
     if (use != BRC_USE_GATHER && !flags(use)) return BRC_OK;
     if (!near) return brc_share_gather(buffer);
-    return buffer->where == BRC_MINE ? brc_share_bring_near(buffer) : BRC_OK;
+    return buffer->where == BRC_MINE ? bring_beside(l, use, buffer) : BRC_OK;
 }
 
-static brc_status bring(const shared *l)
+static brc_status bring(shared *l)
 {
     const bool only_rows = writes_rows(l, false);
     for (int a = 0; a < l->n_args; ++a)
@@ -214,14 +230,40 @@ static brc_status launch(brc_kernel *kernel, int64_t n_items, int n_args, const 
     return kernel->device->backend->launch(kernel, 0, n_items, n_args, args);
 }
 
-/* Items of a range; their bound is the first argument. */
-static brc_status launch_range(brc_kernel *kernel, const shared *l)
+/* Items [first, end); their bound is the first argument. */
+static brc_status launch_range(brc_kernel *kernel, const shared *l, int64_t first, int64_t end)
 {
     brc_arg own[BRC_KERNEL_MOST_ARGS];
-    if (l->first >= l->end) return BRC_OK;
+    if (first >= end) return BRC_OK;
     memcpy(own, l->args, (size_t)l->n_args * sizeof *own);
-    own[0] = BRC_INT((int32_t)l->end);
-    return kernel->device->backend->launch(kernel, l->first, l->end, l->n_args, own);
+    own[0] = BRC_INT((int32_t)end);
+    return kernel->device->backend->launch(kernel, first, end, l->n_args, own);
+}
+
+/* Own items; where rows of others are on their way, those inside first, and what lies between them when all are there.
+ */
+static brc_status launch_own(brc_kernel *kernel, shared *l)
+{
+    const shares *h = kernel->device->shares;
+    brc_context *context = kernel->device->context;
+    brc_status status = BRC_OK;
+    if (l->n_flying == 0) return launch_range(kernel, l, l->first, l->end);
+    for (int32_t k = 0; status == BRC_OK && k < h->n_inside; ++k) {
+        status = launch_range(kernel, l, brc_share_before(h, l->items, h->inside[k].first),
+                              brc_share_before(h, l->items, h->inside[k].end));
+        for (int m = 0; status == BRC_OK && m < l->n_flying; ++m)
+            status = brc_exchange_poke(context, l->flying[m].messages->exchange);
+    }
+    for (int m = 0; m < l->n_flying; ++m) {
+        const brc_status came = brc_share_finish_near(&l->flying[m]);
+        if (status == BRC_OK) status = came;
+    }
+    int64_t from = l->first;
+    for (int32_t k = 0; status == BRC_OK && k < h->n_inside; ++k) {
+        status = launch_range(kernel, l, from, brc_share_before(h, l->items, h->inside[k].first));
+        from = brc_share_before(h, l->items, h->inside[k].end);
+    }
+    return status == BRC_OK ? launch_range(kernel, l, from, l->end) : status;
 }
 
 bool brc_share_waits(const brc_device *device)
@@ -236,7 +278,7 @@ brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, con
     kernel->device->shares->n_launches += 1;
     find_way(&l, n_items);
     BRC_TRY(bring(&l));
-    if (n_items > 0) BRC_TRY(l.way == OWN_ITEMS ? launch_range(kernel, &l) : launch(kernel, n_items, n_args, args));
+    if (n_items > 0) BRC_TRY(l.way == OWN_ITEMS ? launch_own(kernel, &l) : launch(kernel, n_items, n_args, args));
     leave(&l);
     return BRC_OK;
 }

@@ -44,6 +44,9 @@ brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *row
 void brc_rows_among_free(brc_rows_among **among);
 /* Launches from now on keep to the set, which is borrowed; NULL: to none any more. Returns the set until now. */
 brc_rows_among *brc_device_keep_among(brc_device *device, brc_rows_among *among);
+/* Bytes held now: in arrays of rows, of which a rank touches its own part and what its bonds reach; and in those that
+ * ranks of a machine have once. None on other devices than the cpu. */
+void brc_device_bytes_in_parts(const brc_device *device, int64_t *of_rows, int64_t *once);
 /* Whether several ranks share the rows; whether this one computes a row; whether one computes both. */
 bool brc_device_is_shared(const brc_device *device);
 bool brc_device_has_row(const brc_device *device, int32_t row);

@@ -57,7 +57,7 @@ static brc_status messages_make(brc_context *context, const shares *h, brc_messa
 static brc_status messages_of(brc_context *context, shares *h, const brc_messages *like, brc_messages **out)
 {
     for (brc_messages *m = h->messages; m; m = m->next)
-        if (m->bytes == like->bytes && m->of_slots == like->of_slots && m->back == like->back) {
+        if (m->bytes == like->bytes && m->of_slots == like->of_slots && m->back == like->back && !m->flying) {
             *out = m;
             return BRC_OK;
         }
@@ -129,17 +129,35 @@ static brc_status open_exchange(brc_buffer *buffer, bool back, brc_messages **m,
     return open_image(buffer, image);
 }
 
-brc_status brc_share_bring_near(brc_buffer *buffer)
+brc_status brc_share_begin_near(brc_buffer *buffer, brc_flight *flight)
 {
     const shares *h = buffer->device->shares;
-    brc_messages *m;
-    char *image = NULL;
-    BRC_TRY(open_exchange(buffer, false, &m, &image));
-    carry_beside(h, buffer, image, &h->give, m->send, true);
-    const brc_status status = exchange(buffer->device->context, m);
-    if (status == BRC_OK) carry_beside(h, buffer, image, &h->take, m->receive, false);
+    flight->buffer = buffer;
+    BRC_TRY(open_exchange(buffer, false, &flight->messages, &flight->image));
+    brc_messages *const m = flight->messages;
+    carry_beside(h, buffer, flight->image, &h->give, m->send, true);
+    const brc_status status = brc_exchange_begin(buffer->device->context, m->exchange);
+    m->flying = status == BRC_OK;
+    return m->flying ? BRC_OK : close_image(buffer, flight->image, status);
+}
+
+brc_status brc_share_finish_near(brc_flight *flight)
+{
+    brc_buffer *buffer = flight->buffer;
+    const shares *h = buffer->device->shares;
+    brc_messages *const m = flight->messages;
+    const brc_status status = brc_exchange_finish(buffer->device->context, m->exchange);
+    m->flying = false;
+    if (status == BRC_OK) carry_beside(h, buffer, flight->image, &h->take, m->receive, false);
     buffer->where = BRC_NEAR;
-    return close_image(buffer, image, status);
+    return close_image(buffer, flight->image, status);
+}
+
+brc_status brc_share_bring_near(brc_buffer *buffer)
+{
+    brc_flight flight;
+    BRC_TRY(brc_share_begin_near(buffer, &flight));
+    return brc_share_finish_near(&flight);
 }
 
 brc_status brc_share_settle(brc_buffer *buffer)

@@ -33,12 +33,27 @@ static int64_t bytes_of(const brc_buffer *buffer)
     return brc_share_before(h, buffer->of, h->rows.n_slices) * buffer->each;
 }
 
+static bool is_of_rows(const brc_buffer *buffer)
+{
+    return buffer->of != BRC_OF_NOTHING && buffer->of != BRC_OF_BLOCKS && buffer->of != BRC_OF_LOOSE;
+}
+
 /* Whether a rank can do with its own part. */
 static bool is_in_parts(const brc_buffer *buffer)
 {
     const shares *h = buffer->device->shares;
-    return h && buffer->device->info.kind == BRC_DEVICE_CPU && buffer->of != BRC_OF_NOTHING &&
-           buffer->of != BRC_OF_BLOCKS && buffer->of != BRC_OF_LOOSE && bytes_of(buffer) <= buffer->bytes;
+    return h && buffer->device->info.kind == BRC_DEVICE_CPU && is_of_rows(buffer) && bytes_of(buffer) <= buffer->bytes;
+}
+
+void brc_device_bytes_in_parts(const brc_device *device, int64_t *of_rows, int64_t *once)
+{
+    *of_rows = *once = 0;
+    if (device->info.kind != BRC_DEVICE_CPU) return;
+    for (const brc_buffer *buffer = device->buffers; buffer; buffer = buffer->older)
+        if (is_of_rows(buffer))
+            *of_rows += buffer->bytes;
+        else if (buffer->of == BRC_OF_NOTHING && buffer->bytes >= LARGE)
+            *once += buffer->bytes;
 }
 
 /* ---- pages ---- */

@@ -23,9 +23,23 @@ typedef struct brc_messages {
     int64_t bytes; /* of a row, or of one of its slots */
     bool of_slots; /* as many as the rows have slots */
     bool back;     /* from those that read rows to those that compute them */
+    bool flying;   /* begun, and not finished */
     char *send, *receive;
     brc_exchange *exchange;
 } brc_messages;
+
+/* An array whose rows of others are on their way. */
+typedef struct brc_flight {
+    brc_buffer *buffer;
+    brc_messages *messages;
+    char *image; /* as in shares_bring.c */
+} brc_flight;
+
+/* Slices [first, end) of this rank whose rows bonds join to own rows alone. */
+typedef struct brc_inside {
+    int32_t first, end;
+} brc_inside;
+enum { BRC_MOST_INSIDE = 16 };
 
 struct brc_shares {
     brc_rows_of_device rows;
@@ -35,6 +49,8 @@ struct brc_shares {
     int32_t n_beside;     /* ranks that rows are exchanged with */
     int32_t *beside;      /* [n_beside] */
     brc_rows_beside give, take;
+    int32_t n_inside; /* the longest such ranges, in order */
+    brc_inside inside[BRC_MOST_INSIDE];
     brc_messages *messages;
     int64_t n_launches;
     bool ranks_meet;       /* some machine has several ranks, which see one another's memory */
@@ -45,6 +61,7 @@ struct brc_shares {
 struct brc_rows_among {
     int32_t n;
     int32_t *row;             /* [n] ascending */
+    char *mark;               /* [n_rows] 0 */
     int64_t *slots;           /* [n + 1] slots of the rows before */
     int64_t *n_of, *slots_of; /* [n_ranks] rows of each rank, and their slots */
     int64_t first;            /* place of the first of this rank */
@@ -61,6 +78,9 @@ void brc_shares_free(brc_device *device);
 /* ---- shares_bring.c: all ranks alike ---- */
 /* The rows and slots that own bonds reach, of those that compute them. */
 brc_status brc_share_bring_near(brc_buffer *buffer);
+/* The same in two steps: what is computed between them reads own rows. */
+brc_status brc_share_begin_near(brc_buffer *buffer, brc_flight *flight);
+brc_status brc_share_finish_near(brc_flight *flight);
 /* Rows of a set, to all ranks; where the array is right stays as it was. */
 brc_status brc_share_bring_among(brc_buffer *buffer, brc_rows_among *among);
 /* Marks that others have set at own rows. */

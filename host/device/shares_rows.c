@@ -145,6 +145,45 @@ cleanup:
     return status;
 }
 
+/* ---- what is inside ---- */
+
+static bool is_inside(const shares *h, int32_t slice)
+{
+    const int32_t first = h->first_slice[h->mine] * h->rows.slice, end = h->first_slice[h->mine + 1] * h->rows.slice;
+    for (int64_t k = (int64_t)h->slot_start[slice] * h->rows.slice;
+         k < (int64_t)h->slot_start[slice + 1] * h->rows.slice; ++k)
+        if (h->rows.neighbour[k] < first || h->rows.neighbour[k] >= end) return false;
+    return true;
+}
+
+/* The range takes its place among the longest so far, of which the shortest goes where there is no room. */
+static void keep_inside(shares *h, brc_inside range)
+{
+    int32_t shortest = h->n_inside;
+    for (int32_t k = 0; k < h->n_inside && h->n_inside == BRC_MOST_INSIDE; ++k)
+        if (shortest == h->n_inside ||
+            h->inside[k].end - h->inside[k].first < h->inside[shortest].end - h->inside[shortest].first)
+            shortest = k;
+    if (h->n_inside == BRC_MOST_INSIDE) {
+        if (h->inside[shortest].end - h->inside[shortest].first >= range.end - range.first) return;
+        memmove(h->inside + shortest, h->inside + shortest + 1,
+                (size_t)(h->n_inside - shortest - 1) * sizeof *h->inside);
+        --h->n_inside;
+    }
+    h->inside[h->n_inside++] = range;
+}
+
+/* Border slices lie all along a rank's range: ranges shorter than 1/64 of it are not worth a launch. */
+static void find_inside(shares *h)
+{
+    const int32_t first = h->first_slice[h->mine], end = h->first_slice[h->mine + 1], least = (end - first) / 64 + 1;
+    for (int32_t slice = first, from = first; slice <= end; ++slice) {
+        if (slice < end && is_inside(h, slice)) continue;
+        if (slice - from >= least) keep_inside(h, (brc_inside){from, slice});
+        from = slice + 1;
+    }
+}
+
 brc_status brc_device_share(brc_device *device, const brc_rows_of_device *rows)
 {
     brc_context *context = device->context;
@@ -169,6 +208,7 @@ brc_status brc_device_share(brc_device *device, const brc_rows_of_device *rows)
     BRC_TRY(brc_ranks_most(context, 1, &most_local));
     h->ranks_meet = most_local > 1;
     BRC_TRY(find_rows(context, h));
+    find_inside(h);
     h->rows.slot_start = h->rows.neighbour = NULL; /* the caller's */
     return BRC_OK;
 }
@@ -203,6 +243,29 @@ void brc_shares_free(brc_device *device)
 
 /* ---- sets of rows ---- */
 
+/* The rows that there are, ascending, each once, into `among->row`; returns how many. Many are marked: in dust, sorting
+ * them was 6 % of a rank's work. Few are sorted, for all marks are looked at. */
+static int32_t put_in_order(const shares *h, brc_rows_among *among, int32_t n, const int32_t *rows)
+{
+    const int32_t n_rows = h->rows.n_rows;
+    int32_t n_there = 0, n_kept = 0;
+    for (int32_t k = 0; k < n; ++k)
+        if (rows[k] >= 0 && rows[k] < n_rows) among->row[n_there++] = rows[k];
+    if (n_there > n_rows / 32) {
+        for (int32_t k = 0; k < n_there; ++k)
+            among->mark[among->row[k]] = 1;
+        for (int32_t row = 0; row < n_rows; ++row) {
+            if (among->mark[row]) among->row[n_kept++] = row;
+            among->mark[row] = 0;
+        }
+        return n_kept;
+    }
+    if (n_there > 0) qsort(among->row, (size_t)n_there, sizeof *among->row, ascending);
+    for (int32_t k = 0; k < n_there; ++k)
+        if (k == 0 || among->row[k] != among->row[k - 1]) among->row[n_kept++] = among->row[k];
+    return n_kept;
+}
+
 brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *rows, brc_rows_among **out)
 {
     const shares *h = device->shares;
@@ -211,27 +274,22 @@ brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *row
     if (!among) {
         BRC_TRY(BRC_ALLOCATE(device->context, out, 1, "rows of launches"));
         among = *out;
+        BRC_TRY(BRC_ALLOCATE(device->context, &among->mark, h->rows.n_rows, "rows of launches"));
         BRC_TRY(BRC_ALLOCATE(device->context, &among->n_of, h->n_ranks, "rows of launches"));
         BRC_TRY(BRC_ALLOCATE(device->context, &among->slots_of, h->n_ranks, "rows of launches"));
     }
     BRC_TRY(brc_memory_resize(device->context, (void **)&among->row, n, sizeof *rows, "rows of launches"));
     BRC_TRY(
         brc_memory_resize(device->context, (void **)&among->slots, n + 1, sizeof *among->slots, "rows of launches"));
-    among->n = 0;
     memset(among->n_of, 0, (size_t)h->n_ranks * sizeof *among->n_of);
     memset(among->slots_of, 0, (size_t)h->n_ranks * sizeof *among->slots_of);
-    int32_t *const sorted = among->row;
-    if (n > 0) memcpy(sorted, rows, (size_t)n * sizeof *rows);
-    if (n > 0) qsort(sorted, (size_t)n, sizeof *sorted, ascending);
-    for (int32_t k = 0; k < n; ++k) {
-        if (sorted[k] < 0 || sorted[k] >= h->rows.n_rows || (among->n > 0 && sorted[k] == sorted[among->n - 1]))
-            continue;
-        const int32_t owner = brc_share_rank_of_row(h, sorted[k]), slice = sorted[k] / h->rows.slice;
+    among->n = put_in_order(h, among, n, rows);
+    for (int32_t k = 0; k < among->n; ++k) {
+        const int32_t owner = brc_share_rank_of_row(h, among->row[k]), slice = among->row[k] / h->rows.slice;
         const int64_t n_slots = h->slot_start[slice + 1] - h->slot_start[slice];
         among->n_of[owner] += 1;
         among->slots_of[owner] += n_slots;
-        among->slots[among->n + 1] = among->slots[among->n] + n_slots;
-        sorted[among->n++] = sorted[k];
+        among->slots[k + 1] = among->slots[k] + n_slots;
     }
     among->first = 0;
     for (int32_t rank = 0; rank < h->mine; ++rank)
@@ -244,6 +302,7 @@ void brc_rows_among_free(brc_rows_among **among)
     if (!among || !*among) return;
     brc_memory_free((*among)->row);
     brc_memory_free((*among)->slots);
+    brc_memory_free((*among)->mark);
     brc_memory_free((*among)->n_of);
     brc_memory_free((*among)->slots_of);
     brc_memory_free((*among)->image);

@@ -10,6 +10,7 @@ typedef struct brc_prediction_told {
     bool known;                                  /* else the rest says nothing */
     bool processor_time;                         /* seconds are those of the processor, else of the clock */
     double seconds, least_seconds, most_seconds; /* [s] and its range */
+    double step_seconds, steps;                  /* of seconds, those of dynamic steps without output, and how many */
     double host_bytes, device_bytes, resident_bytes, disk_bytes; /* [byte] */
 } brc_prediction_told;
 

@@ -2,6 +2,7 @@
 import filecmp
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -72,11 +73,36 @@ def bench(folder):
     for row in rows[:3]:  # ghosts of a rank are rows of others, at least those of one of its faces
         own, others = row["rows_per_rank"], row["elements"] - row["rows_per_rank"]
         expect(own ** (2 / 3) < row["ghosts_per_rank"] <= row["ghosts_most"] < others, f"ghosts: {row}")
-        expect(1 <= row["neighbours_most"] < row["ranks"] and 0 < row["inside_least"] < 1, f"neighbours: {row}")
+        expect(1 <= row["neighbours_most"] < row["ranks"] and 0 < row["inside_least"] < 1 and 0 <= row["meanwhile_least"] <= row["inside_least"], f"neighbours: {row}")
         expect(row["exchanged_bytes_most"] == 240 * row["ghosts_most"], f"bytes: {row}")
 
 
+def check():
+    """What `check --ranks` tells: seconds of steps and memory fall, those of all ranks stay."""
+    small = ["--brief", "--threads", "1"]
+    scene = os.path.join(os.environ["BRC_SOURCE_DIR"], "examples/tension-dynamic/scene.yaml")
+    told = {}
+    for n in (2, 8):
+        done = subprocess.run([PLAIN, "check", scene, *small, "--ranks", str(n)], capture_output=True, text=True, check=False)
+        found = re.search(rf"on {n} ranks, each .*?: ([\d.e+-]+) s, of these ([\d.e+-]+) s in steps, and of these ([\d.e+-]+) s in messages.*\n"
+                          rf"on {n} ranks, memory: ([\d.]+) MB a rank .* and ([\d.]+) MB once a machine.*: ([\d.]+) % of the bonds, (\d+) rows of (\d+) other", done.stdout)
+        resident = re.search(r"([\d.]+) MB resident", done.stdout)
+        expect(done.returncode == 0 and found and resident, f"check on {n} ranks: {done.returncode} {done.stdout} {done.stderr}")
+        if found:
+            told[n] = [float(word) for word in found.groups()]
+            seconds, steps, messages, own, once, share, rows, others = told[n]
+            expect(seconds > steps > messages > 0 and own + once < float(resident.group(1)), f"check on {n} ranks: {told[n]}")
+            expect(abs(share * n / 100 - 1) < 0.05 and rows > 100 and 1 <= others < n, f"check on {n} ranks: {told[n]}")
+    if len(told) == 2:
+        expect(told[8][3] < told[2][3] and told[8][7] > told[2][7], f"check: {told}")
+    for wrong, said in ((["--ranks", "0"], "from 1 to 4096"), (["--ranks", "5000"], "from 1 to 4096"), (["--ranks", "two"], "from 1 to 4096"),
+                        (["--ranks", "2", "--estimate"], "leave out --estimate")):
+        done = subprocess.run([PLAIN, "check", scene, *wrong], capture_output=True, text=True, check=False)
+        expect(done.returncode == 2 and said in done.stderr, f"check {wrong}: {done.returncode} {done.stderr}")
+
+
 with tempfile.TemporaryDirectory() as temporary:
+    check()
     one_rank(temporary)
     several(temporary)
     bench(temporary)

@@ -84,6 +84,10 @@ def same(folder, n_cells, environment):
 def memory(folder):
     one, two = (run(n, *line(f"{folder}/memory-{n}", 100000, "0.05 us")) for n in (1, 2))
     expect(two <= 0.6 * one, f"memory of a rank of two: {two / one:.2f} of {one / 1e6:.0f} MB (0.6 asked)")
+    check = ["check", *line(f"{folder}/priced", 100000, "0.05 us")[1:2], *line("", 100000, "0.05 us")[4:], "--ranks", "2"]
+    done = subprocess.run([PLAIN, *check], capture_output=True, text=True, check=True)
+    own, once = (1e6 * float(word) for word in re.search(r"memory: ([\d.]+) MB a rank .* and ([\d.]+) MB once", done.stdout).groups())
+    expect(two <= own + once / 2 < one, f"memory of a rank of two: {two / 1e6:.0f} MB, told before: {(own + once / 2) / 1e6:.0f} MB")
 
 
 def sent():
@@ -97,12 +101,22 @@ def sent():
     expect(abs(sends / (240 * ghosts) - 1) <= 0.2, f"a step sends {sends:.0f} bytes, {sends / (240 * ghosts):.3f} of what {ghosts} rows have (0.2 asked)")
 
 
+def hidden():
+    """Between ranks far from each other messages of 50 us fly while the inside is computed; the surface of half a cube leaves that much."""
+    process = under.start(2, [PROGRAM, "bench", "ranks", "--problems", "step", "--sizes", "20000", "--steps", "20", "--threads", "1"], "0,50")
+    output, errors = process.communicate(timeout=300)
+    assert process.returncode == 0, errors
+    messages, flight = (float(re.search(pattern, output).group(1)) for pattern in (r"([\d.]+) messages", r"in flight ([\d.e-]+) s"))
+    expect(flight >= messages * 50e-6, f"{messages:.0f} messages a step fly {1e6 * flight:.0f} us while rows inside are computed")
+
+
 with tempfile.TemporaryDirectory() as temporary:
     os.chdir(temporary)
     for k, (cells, chosen) in enumerate(((9000, {}), (17000, {"BRECCIA_ISA": "v2"}))):
         same(f"{temporary}/{k}", cells, chosen)
     memory(temporary)
     sent()
+    hidden()
 for failure in FAILURES:
     print("shares: " + failure)
 sys.exit(1 if FAILURES else 0)

@@ -85,6 +85,9 @@ def killed_ranks():
         said = f"rank {rank} is gone without a word (killed, or out of memory); a run with checkpoints goes on with --resume"
         expect(code == 128 + signal.SIGKILL and lines == [said] and seconds < 10,
                f"rank {rank} of {n} killed after {pause:.3f} s: {code} {lines} {seconds:.1f} s")
+        while seconds < 10 and not all(is_gone(pid) for pid in of.values()):  # mpirun may be first
+            time.sleep(0.1)
+            seconds += 0.1
         for pid in of.values():
             expect(is_gone(pid), f"rank {rank} of {n} killed: process {pid} is still there")
 

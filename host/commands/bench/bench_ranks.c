@@ -11,11 +11,12 @@ static brc_status print_row(void *self, const brc_rows *rows)
     printf("%-9s %5.0f ranks", what, brc_row_number(row, "ranks"));
     if (strcmp(what, "surface") == 0)
         printf(" %9.0f elements %9.0f rows %8.0f ghosts (most %8.0f) %5.2f rows^(2/3) %5.1f neighbours (most %3.0f), "
-               "inside %.2f\n",
+               "inside %.2f, computed while messages fly %.2f\n",
                brc_row_number(row, "elements"), brc_row_number(row, "rows_per_rank"),
                brc_row_number(row, "ghosts_per_rank"), brc_row_number(row, "ghosts_most"),
                brc_row_number(row, "surface_constant"), brc_row_number(row, "neighbours_per_rank"),
-               brc_row_number(row, "neighbours_most"), brc_row_number(row, "inside_least"));
+               brc_row_number(row, "neighbours_most"), brc_row_number(row, "inside_least"),
+               brc_row_number(row, "meanwhile_least"));
     else if (strcmp(what, "step") == 0)
         printf(" %9.0f elements %10.4g s/step %6.1f messages %10.0f bytes, waited %.3g s, in flight %.3g s, %.0f MB\n",
                brc_row_number(row, "elements"), brc_row_number(row, "seconds"),

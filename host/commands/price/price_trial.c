@@ -29,6 +29,7 @@ static const double host_of_break = 150, event_of_break = 136, drawn_of_break = 
 
 typedef struct sums {
     double seconds, least, most;
+    double step_seconds, steps; /* of seconds, those of dynamic steps */
     bool ranged;
 } sums;
 
@@ -69,6 +70,8 @@ static void tell_dynamic(FILE *details, const brc_scene *scene, const brc_setup 
     const double tried = t->enter_s + t->whole_s,
                  seconds = t->cut ? fmax(fixed + part * (factor * unbroken + output), tried)
                                   : tried; /* the trial came so far without an end */
+    total->step_seconds += t->cut ? part * factor * unbroken : unbroken;
+    total->steps += part * (double)t->planned;
     fprintf(details, "stage %s: time step %.6g s (%s", stage->name, t->time_step.value, t->time_step.governed_by);
     if (t->time_step.critical > 0)
         fprintf(details, ", %.3g of the critical %.6g s", t->time_step.value / t->time_step.critical,
@@ -331,6 +334,8 @@ brc_status brc_price_tell_trial(brc_context *context, brc_scene *scene, const br
                                   .seconds = total.seconds,
                                   .least_seconds = total.least,
                                   .most_seconds = total.most,
+                                  .step_seconds = total.step_seconds,
+                                  .steps = total.steps,
                                   .host_bytes = m.host,
                                   .device_bytes = m.device,
                                   .resident_bytes = m.resident,
