@@ -37,9 +37,15 @@ const brc_card_pass brc_card_passes[] = {
 };
 const int brc_card_n_passes = sizeof brc_card_passes / sizeof brc_card_passes[0];
 
-/* Memory as measured elsewhere; the rest is assumed: L2 as measured of an H100, 132 multiprocessors at 1.7 GHz. */
-const brc_card brc_card_h200 = {
-    .name = "H200", .launch_s = 4e-6, .memory = 4.3e12, .cache = 5.5e12, .doubles = 14.4e12, .singles = 28.7e12};
+/* Launches and memory as measured (bench/results/notes/gpu.md); L2 as measured of an H100, operations of 132
+ * multiprocessors at 1.7 GHz. */
+const brc_card brc_card_h200 = {.name = "H200",
+                                .launch_s = 6.5e-6,
+                                .copy = 3.8e12,
+                                .memory = 2.27e12,
+                                .cache = 5.5e12,
+                                .doubles = 14.4e12,
+                                .singles = 28.7e12};
 
 double brc_card_seconds(const brc_card *card, const brc_card_traffic *traffic, brc_precision precision,
                         double half_edges)

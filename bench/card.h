@@ -1,4 +1,4 @@
-/* What a step moves and computes on a card, by its passes, and the price of that on one no driver of which is at hand:
+/* What a step moves and computes on a card, by its passes, and the price of that where the card is not at hand:
  * part of `breccia bench sectors`. */
 #ifndef BRC_BENCH_CARD_H
 #define BRC_BENCH_CARD_H
@@ -29,7 +29,8 @@ extern const int brc_card_n_passes;
 typedef struct brc_card {
     const char *name;
     double launch_s;         /* of a kernel in a long queue */
-    double memory, cache;    /* [byte/s] of its memory and of its L2 */
+    double copy;             /* [byte/s] of its memory by a copy */
+    double memory, cache;    /* [byte/s] of its memory by passes, and of its L2 */
     double doubles, singles; /* [operation/s] */
 } brc_card;
 extern const brc_card brc_card_h200;

@@ -57,7 +57,7 @@ def ptx_of(precision, many, folder):
                     "-D", "__OPENCL_VERSION__=120", "-D", "BRC_LANES=1", "-D", "BRC_SLICE=32", "-D", f"BRC_GROUP={GROUP}",
                     "-D", f"BRC_PRECISION={PRECISIONS.index(precision)}", "-D", f"BRC_MANY_MATERIALS={many}",
                     "-O2", "-ffp-contract=on", "-fdenormal-fp-math-f32=preserve-sign", "-target-cpu", "sm_80", "-target-feature", "+ptx72",
-                    "-Wno-linker-warnings", "-mlink-builtin-bitcode", LIBRARY, "-S", "-o", ptx, source], check=True)
+                    "-Wno-linker-warnings", "-Wpedantic", "-Werror", "-mlink-builtin-bitcode", LIBRARY, "-S", "-o", ptx, source], check=True)
     return ptx
 
 

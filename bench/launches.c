@@ -7,15 +7,16 @@
 #include <stdlib.h>
 
 enum { WARM_STEPS = 600, TRIAL_LAUNCHES = 2000, TRIAL_WAITS = 200, SMALL = 4000, SMALL_STEPS = 256 };
+/* Elements of a body that fills a GPU. */
+enum { MANY = 300000 };
 /* Constants and steps by turns, so that what other programs take from one they take from all. Odd: the round in the
  * middle counts. */
 enum { ROUNDS = 7 };
 /* Strength that nothing reaches [Pa]. */
 static const double endless = 1e15;
-/* What an NVIDIA H200 is taken for until one was measured: bandwidth as measured elsewhere, the others usual for its
- * driver. */
+/* An NVIDIA H200, as measured (bench/results/notes/gpu.md). */
 static const brc_device_price h200 = {
-    .launch_s = 4e-6, .wait_s = 20e-6, .copy_bandwidth = 4.3e12, .pass_bandwidth = INFINITY};
+    .launch_s = 6.5e-6, .wait_s = 10e-6, .copy_bandwidth = 3.8e12, .pass_bandwidth = 2.27e12, .overlaps = true};
 
 typedef struct effect {
     const char *name;
@@ -28,7 +29,9 @@ static const effect effects[] = {{"elastic", false, false},
 
 static double price_of(const brc_device_price *p, double launches, double waits, double bytes)
 {
-    return launches * p->launch_s + waits * p->wait_s + bytes / fmin(p->copy_bandwidth, p->pass_bandwidth);
+    const double launching = launches * p->launch_s,
+                 passing = p->latency_s + bytes / fmin(p->copy_bandwidth, p->pass_bandwidth);
+    return waits * p->wait_s + (p->overlaps ? fmax(launching, passing) : launching + passing);
 }
 
 /* One thread: processor time, which other programs on the machine do not lengthen. */
@@ -45,6 +48,8 @@ static brc_status measure_constants(const brc_launches_request *r, brc_device *d
     brc_kernel *copy = NULL;
     double number[8];
     out->copy_bandwidth = out->pass_bandwidth = INFINITY;
+    out->latency_s = 0;
+    out->overlaps = brc_device_get_info(device)->is_gpu;
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &x, sizeof number, "bench numbers"));
     BRC_TRY_OR(cleanup, brc_buffer_create(device, &y, sizeof number, "bench numbers"));
     BRC_TRY_OR(cleanup, brc_kernel_find(device, "vector_copy", &copy));
@@ -130,19 +135,36 @@ static int by_ratio(const void *a, const void *b)
     return left < right ? -1 : left > right;
 }
 
-static brc_status measure_round(const brc_launches_request *r, brc_device *device, const body *small, const body *large,
-                                bench_round *out)
+/* What passes reach and how long they take of a few elements: on a GPU by two bodies, for it waits as long for memory
+ * with one element a work-item as with many; else by the small one, in cache. */
+static brc_status measure_passes(const brc_launches_request *r, brc_device *device, const body *small, const body *many,
+                                 brc_device_price *price)
+{
+    step_work few, full;
+    BRC_TRY(take_steps(r, device, small, SMALL_STEPS, &few));
+    if (!many->simulation) {
+        const double launching = (double)few.counts.launches / SMALL_STEPS * price->launch_s;
+        if (few.seconds > launching) price->pass_bandwidth = small->floor_bytes / (few.seconds - launching);
+        return BRC_OK;
+    }
+    BRC_TRY(take_steps(r, device, many, SMALL_STEPS, &full));
+    if (full.seconds > few.seconds)
+        price->pass_bandwidth = (many->floor_bytes - small->floor_bytes) / (full.seconds - few.seconds);
+    price->latency_s = fmax(0, few.seconds - small->floor_bytes / price->pass_bandwidth);
+    return BRC_OK;
+}
+
+static brc_status measure_round(const brc_launches_request *r, brc_device *device, const body *small, const body *many,
+                                const body *large, bench_round *out)
 {
     const int64_t moved = (int64_t)large->floor_bytes / 2; /* a copy reads and writes */
     const double n = (double)r->n_steps;
     brc_device_price *price = &out->price;
-    step_work elastic;
     BRC_TRY(measure_constants(r, device, price));
-    BRC_TRY(brc_device_copy_bandwidth(device, moved < r->bandwidth_bytes ? moved : r->bandwidth_bytes,
+    BRC_TRY(brc_device_copy_bandwidth(device,
+                                      price->overlaps || moved > r->bandwidth_bytes ? r->bandwidth_bytes : moved,
                                       r->n_threads == 1 ? brc_processor_s : brc_clock_s, &price->copy_bandwidth));
-    BRC_TRY(take_steps(r, device, small, SMALL_STEPS, &elastic));
-    const double launching = (double)elastic.counts.launches / SMALL_STEPS * price->launch_s;
-    if (elastic.seconds > launching) price->pass_bandwidth = small->floor_bytes / (elastic.seconds - launching);
+    BRC_TRY(measure_passes(r, device, small, many, price));
     BRC_TRY(take_steps(r, device, large, r->n_steps, &out->work));
     out->told =
         price_of(price, (double)out->work.counts.launches / n, (double)out->work.counts.waits / n, large->floor_bytes);
@@ -166,6 +188,7 @@ static void add_figures(const brc_launches_request *r, const brc_domain *domain,
     brc_rows_number(rows, "wait_s", price->wait_s);
     brc_rows_number(rows, "copy_bandwidth", price->copy_bandwidth);
     brc_rows_number(rows, "pass_bandwidth", price->pass_bandwidth);
+    brc_rows_number(rows, "latency_s", price->latency_s);
     brc_rows_number(rows, "seconds", found->work.seconds);
     brc_rows_number(rows, "seconds_by_model", found->told);
     brc_rows_number(rows, "model_over_seconds", found->told / found->work.seconds);
@@ -175,14 +198,15 @@ static void add_figures(const brc_launches_request *r, const brc_domain *domain,
 }
 
 static brc_status measure(brc_context *context, const brc_launches_request *r, brc_device *device, const body *small,
-                          const brc_domain *domain, brc_model_kind model, const effect *e, brc_rows *rows)
+                          const body *many, const brc_domain *domain, brc_model_kind model, const effect *e,
+                          brc_rows *rows)
 {
     brc_status status = BRC_OK;
     body large = {0};
     bench_round rounds[ROUNDS];
     BRC_TRY_OR(cleanup, body_make(context, device, domain, model, e, &large));
     for (int k = 0; k < ROUNDS; ++k)
-        BRC_TRY_OR(cleanup, measure_round(r, device, small, &large, &rounds[k]));
+        BRC_TRY_OR(cleanup, measure_round(r, device, small, many, &large, &rounds[k]));
     qsort(rounds, ROUNDS, sizeof *rounds, by_ratio);
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "launches");
@@ -201,23 +225,34 @@ cleanup:
     return status;
 }
 
+/* An elastic body of so many elements; *domain as long as it. */
+static brc_status make_elastic(brc_context *context, brc_device *device, brc_model_kind model, int64_t size,
+                               brc_domain **domain, body *out)
+{
+    BRC_TRY(brc_cube_build(context, size, brc_cube_is_of_spheres(model), domain));
+    return body_make(context, device, *domain, model, &effects[0], out);
+}
+
 static brc_status measure_model(brc_context *context, const brc_launches_request *r, brc_model_kind model,
                                 brc_rows *rows)
 {
     brc_status status = BRC_OK;
-    brc_domain *domain = NULL, *few = NULL;
+    brc_domain *domain = NULL, *few = NULL, *full = NULL;
     brc_device *device = NULL;
-    body small = {0};
+    body small = {0}, many = {0};
     const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
     BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
-    BRC_TRY_OR(cleanup, brc_cube_build(context, SMALL, brc_cube_is_of_spheres(model), &few));
+    BRC_TRY_OR(cleanup, make_elastic(context, device, model, SMALL, &few, &small));
+    if (brc_device_get_info(device)->is_gpu)
+        BRC_TRY_OR(cleanup, make_elastic(context, device, model, MANY, &full, &many));
     BRC_TRY_OR(cleanup, brc_cube_build(context, r->size, brc_cube_is_of_spheres(model), &domain));
-    BRC_TRY_OR(cleanup, body_make(context, device, few, model, &effects[0], &small));
     for (size_t k = 0; k < sizeof effects / sizeof effects[0]; ++k)
-        BRC_TRY_OR(cleanup, measure(context, r, device, &small, domain, model, &effects[k], rows));
+        BRC_TRY_OR(cleanup, measure(context, r, device, &small, &many, domain, model, &effects[k], rows));
 cleanup:
+    brc_simulation_free(&many.simulation);
     brc_simulation_free(&small.simulation);
     brc_domain_free(&domain);
+    brc_domain_free(&full);
     brc_domain_free(&few);
     brc_device_close(&device);
     return status;

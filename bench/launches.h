@@ -2,7 +2,9 @@
  * and device; and what that is worth by a model of the device, seconds = launches x launch + waits x wait + least bytes
  * / bandwidth, whose constants are measured here, and for a card given in docs/notebook/devices.md. The bandwidth is
  * that of a copy of as many bytes as the step moves or, where arithmetic takes longer, as on a CPU, what the passes of
- * a small elastic body reach in cache. Constants and steps are measured by turns, and the turn in the middle counts.
+ * a small elastic body reach in cache. A GPU is asked for the next launches while it computes, and waits for memory
+ * however few elements there are: there the longer of launches and passes counts, and passes are a latency and bytes,
+ * by a small body and one that fills it. Constants and steps are measured by turns, and the turn in the middle counts.
  * One thread: processor seconds. Noisy-grid cubes and packings as of `bench throughput`: elastic, with fracture and
  * contact where nothing breaks and nothing is near. */
 #ifndef BRC_BENCH_LAUNCHES_H
@@ -16,7 +18,9 @@
 typedef struct brc_device_price {
     double launch_s, wait_s; /* of a launch with nothing to do, of a read of a number */
     double copy_bandwidth;   /* [byte/s] */
-    double pass_bandwidth;   /* least bytes of elastic steps over the seconds of their passes, in cache [byte/s] */
+    double pass_bandwidth;   /* least bytes of elastic steps over the seconds of their passes [byte/s] */
+    double latency_s;        /* of the passes of an elastic step of few elements */
+    bool overlaps;           /* launches are made while the device computes: the longer of the two counts */
 } brc_device_price;
 
 typedef struct brc_launches_request {

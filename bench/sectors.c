@@ -188,7 +188,7 @@ static brc_status add_pass(const brc_sectors_request *r, const sample *c, const 
     return finish_row(r, c, rows);
 }
 
-/* The step of so many elements on a card that nobody has measured. */
+/* The step of so many elements on a card. */
 static brc_status add_step(const brc_sectors_request *r, const sample *c, brc_model_kind model, brc_precision precision,
                            double elements, brc_rows *rows)
 {
@@ -219,7 +219,7 @@ static brc_status add_step(const brc_sectors_request *r, const sample *c, brc_mo
     brc_rows_number(rows, "operations_per_bond", 2 * sum.operations);
     brc_rows_number(rows, "seconds_by_model", seconds);
     brc_rows_number(rows, "bond_updates_per_s", 0.5 * half_edges / seconds);
-    brc_rows_number(rows, "of_copy_bandwidth", half_edges * sum.least / seconds / card->memory);
+    brc_rows_number(rows, "of_copy_bandwidth", half_edges * sum.least / seconds / card->copy);
     brc_rows_number(rows, "ours", 0.5 * half_edges / seconds);
     return finish_row(r, c, rows);
 }

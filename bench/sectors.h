@@ -2,7 +2,7 @@
  * in the layout of a GPU. Memory comes in sectors of 32 bytes; a warp of 32 elements gathers a record of each one's
  * neighbour at once. For each kind of record (its numbers, their bytes) and each way of storing it: packed; padded to
  * whole sixteen bytes, which vector loads want; split, every number an array of its own. Then what each pass of a step
- * moves, and the step of 1e5 to 3e7 elements on a card that nobody has measured (card.h). */
+ * moves, and the step of 1e5 to 3e7 elements on a card (card.h). */
 #ifndef BRC_BENCH_SECTORS_H
 #define BRC_BENCH_SECTORS_H
 

@@ -58,7 +58,7 @@ static void add_to_log(brc_device *device, const char *options, const char *log)
 }
 
 /* NVIDIA's compiler tells registers and spills of each kernel in its log where it is asked to. */
-static const char *verbose_option(brc_device *device, cl_device_id id)
+static const char *verbose_option(cl_device_id id)
 {
     char extensions[4096] = "";
     if (!log_path()) return "";
@@ -174,8 +174,8 @@ brc_status brc_opencl_build(brc_device *device, const brc_opencl_request *r, cl_
              "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D "
              "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s%s%s%.128s",
              (int)device->precision, device->lanes, device->slice, (int)r->group, (int)device->many_materials,
-             device->exact ? exact_options(device, r->id) : "", verbose_option(device, r->id),
-             more && more[0] ? " " : "", more ? more : "");
+             device->exact ? exact_options(device, r->id) : "", verbose_option(r->id), more && more[0] ? " " : "",
+             more ? more : "");
     BRC_TRY_OR(cleanup, brc_program_source(device->context, r->folder, r->part, &source));
     BRC_TRY_OR(cleanup, make_key(device, r->id, options, source, &key));
     if (is_kept(device)) *out = kept_program(device, r->context, r->id, options, key);
