@@ -37,7 +37,7 @@ const brc_card_pass brc_card_passes[] = {
 };
 const int brc_card_n_passes = sizeof brc_card_passes / sizeof brc_card_passes[0];
 
-/* Launches and memory as measured (bench/results/notes/gpu.md); L2 as measured of an H100, operations of 132
+/* Launches and memory as measured (bench/results/2026-11-26-nvidia-h200); L2 as measured of an H100, operations of 132
  * multiprocessors at 1.7 GHz. */
 const brc_card brc_card_h200 = {.name = "H200",
                                 .launch_s = 6.5e-6,

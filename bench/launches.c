@@ -14,7 +14,7 @@ enum { MANY = 300000 };
 enum { ROUNDS = 7 };
 /* Strength that nothing reaches [Pa]. */
 static const double endless = 1e15;
-/* An NVIDIA H200, as measured (bench/results/notes/gpu.md). */
+/* An NVIDIA H200, as measured (bench/results/2026-11-26-nvidia-h200). */
 static const brc_device_price h200 = {
     .launch_s = 6.5e-6, .wait_s = 10e-6, .copy_bandwidth = 3.8e12, .pass_bandwidth = 2.27e12, .overlaps = true};
 

@@ -37,6 +37,9 @@ static const char *exact_options(brc_device *device, cl_device_id id)
     return " -D BRC_EXACT";
 }
 
+/* Characters of BRECCIA_OPENCL_OPTIONS. */
+enum { MOST_MORE = 200 };
+
 /* Where what the compiler says of every program is added (docs/notebook/devices.md); NULL: nowhere. */
 static const char *log_path(void)
 {
@@ -170,9 +173,12 @@ brc_status brc_opencl_build(brc_device *device, const brc_opencl_request *r, cl_
     const char *const more = getenv("BRECCIA_OPENCL_OPTIONS"); /* to tune for a new device */
     const double start = brc_clock_s();
     *out = NULL;
+    if (more && strlen(more) > MOST_MORE)
+        return BRC_FAIL(device->context, BRC_BAD_INPUT,
+                        "BRECCIA_OPENCL_OPTIONS has %zu characters: expected at most %d", strlen(more), (int)MOST_MORE);
     snprintf(options, sizeof options,
              "-cl-std=CL1.2 -cl-denorms-are-zero -D BRC_PRECISION=%d -D BRC_LANES=%d -D BRC_SLICE=%d -D "
-             "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s%s%s%.128s",
+             "BRC_GROUP=%d -D BRC_MANY_MATERIALS=%d%s%s%s%s",
              (int)device->precision, device->lanes, device->slice, (int)r->group, (int)device->many_materials,
              device->exact ? exact_options(device, r->id) : "", verbose_option(r->id), more && more[0] ? " " : "",
              more ? more : "");

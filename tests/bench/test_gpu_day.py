@@ -98,6 +98,8 @@ def main():
         make_root(root, driver)
         command = [shutil.which("chroot", path="/usr/sbin:/sbin:/usr/bin"), root, "/breccia-gpu-day/bench/gpu-day", "run", "--short", "--minutes", "5"]
         clean = {"PATH": "/usr/bin:/bin", "HOME": "/tmp", "POCL_CACHE_DIR": "/tmp/pocl", "BRECCIA_OPENCL_LAYOUT": "gpu", "OMP_WAIT_POLICY": "passive"}
+        wrong = subprocess.run(command[:-3] + ["--parts", "bits,nothing"], env=clean, capture_output=True, text=True)
+        assert wrong.returncode == 2 and "--parts nothing: expected some of 1e6,bar" in wrong.stderr, wrong
         without = subprocess.run(command, env=clean, capture_output=True, text=True)
         assert without.returncode == 3 and "--driver LIBRARY names one" in without.stderr, f"without a driver: {without}"
         done = subprocess.run(command + ["--driver", driver], env=clean, capture_output=True, text=True)

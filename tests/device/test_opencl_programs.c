@@ -8,6 +8,7 @@
 #include "../skip.h"
 #include "../../host/base/file.h"
 #include "../../host/base/log.h"
+#include "../../host/base/memory.h"
 #include "../../host/device/opencl_aside.h"
 #include "../../host/device/opencl_list.h"
 #include <dirent.h>
@@ -104,6 +105,37 @@ static void the_kernels_compile_for_every_width(void **unused)
     const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE, .lanes = 5};
     assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
     device_cases_says(context, "5 elements a work-item: expected 1, 4, 8 or 16");
+    brc_context_free(&context);
+}
+
+/* What the environment adds to the options is compiled with, and what the compiler says is kept. */
+static void options_and_log_are_the_environments(void **unused)
+{
+    (void)unused;
+    brc_context *context = brc_context_create();
+    const brc_device_request request = {.selector = info.selector, .precision = BRC_SINGLE};
+    static const char log[] = BRC_BUILD_DIR_PATH "/compiler-log.txt";
+    char many[300], *text = NULL;
+    size_t bytes;
+    memset(many, ' ', sizeof many - 1);
+    many[sizeof many - 1] = '\0';
+    (void)remove(log);
+    assert_int_equal(setenv("BRECCIA_OPENCL_LOG", log, 1), 0);
+    assert_int_equal(setenv("BRECCIA_OPENCL_PROGRAM", "whole", 1), 0);
+    assert_int_equal(setenv("BRECCIA_OPENCL_OPTIONS", "-D BRC_UNUSED=3", 1), 0);
+    if (device_cases_open(context, &request) != BRC_OK) device_cases_says(context, "(it compiles)");
+    assert_int_equal(brc_file_read_whole(context, log, 1 << 20, &text, &bytes), BRC_OK);
+    assert_non_null(strstr(text, "-D BRC_UNUSED=3"));
+    brc_memory_free(text);
+    assert_int_equal(setenv("BRECCIA_OPENCL_OPTIONS", "-no-such-option", 1), 0);
+    assert_int_equal(device_cases_open(context, &request), BRC_DEVICE_FAILED);
+    device_cases_says(context, "-D BRC_MANY_MATERIALS=0 -no-such-option");
+    assert_int_equal(setenv("BRECCIA_OPENCL_OPTIONS", many, 1), 0);
+    assert_int_equal(device_cases_open(context, &request), BRC_BAD_INPUT);
+    device_cases_says(context, "BRECCIA_OPENCL_OPTIONS has 299 characters: expected at most 200");
+    assert_int_equal(unsetenv("BRECCIA_OPENCL_OPTIONS"), 0);
+    assert_int_equal(unsetenv("BRECCIA_OPENCL_PROGRAM"), 0);
+    assert_int_equal(unsetenv("BRECCIA_OPENCL_LOG"), 0);
     brc_context_free(&context);
 }
 
@@ -273,6 +305,7 @@ int main(void)
         cmocka_unit_test(kernels_that_do_not_compile_show_the_whole_log),
         cmocka_unit_test(the_kernels_of_a_folder_replace_the_embedded_ones),
         cmocka_unit_test(the_kernels_compile_for_every_width),
+        cmocka_unit_test(options_and_log_are_the_environments),
         cmocka_unit_test(a_program_has_the_kernels_that_were_asked_for),
         cmocka_unit_test(programs_are_kept_and_what_is_not_whole_is_compiled_again),
     };
