@@ -112,6 +112,8 @@ def main():
         assert "opencl:0" in open(f"{results[0]}/machine.txt", encoding="utf-8").read()
         parts = rows_of(f"{results[0]}/parts.csv")
         assert len(parts) == 3 and all(row["status"] == "done" for row in parts), parts
+        done = subprocess.run(command[:-3] + ["--driver", driver, "--device", "opencl:0", "--parts", "suites"], env=clean, capture_output=True, text=True)
+        assert done.returncode == 0 and "made without --tests" in done.stdout, done
         bits = rows_of(f"{results[0]}/bits.csv")
         assert [(row["equal_frames"], row["frames"]) for row in bits] == [("7", "7")], bits
         throughput = rows_of(f"{results[0]}/throughput-1e3.csv")
