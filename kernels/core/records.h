@@ -170,10 +170,10 @@ LAW lane_quat state_wide4(GLOBAL const state *restrict p, int row)
 #else
 LAW state_vec3 state_wide3(GLOBAL const state *restrict p, int row)
 {
-    const int odd = row & 1;
-    GLOBAL const state_pair *const q = (GLOBAL const state_pair *)(p + ((brc_size)row * 3 - (brc_size)odd));
-    const state_pair a = q[0], b = q[1];
-    return (state_vec3){odd ? a.y : a.x, odd ? b.x : a.y, odd ? b.y : b.x};
+    GLOBAL const state *const q = p + (brc_size)row * 3;
+    const state one = q[row & 1 ? 0 : 2]; /* before or behind a pair */
+    const state_pair a = *(GLOBAL const state_pair *)(q + (row & 1));
+    return (state_vec3){row & 1 ? one : a.x, row & 1 ? a.x : a.y, row & 1 ? a.y : one};
 }
 LAW lane_quat state_wide4(GLOBAL const state *restrict p, int row)
 {
