@@ -5,9 +5,11 @@
 #pragma GCC diagnostic ignored "-Wunused-variable"
 #include "../../kernels/kernels.h"
 
-/* Two cells with the stresses and gradients of these, and a bond between them with any force. */
+static const double modulus = 3e7, ell = -0.1, beta = 0.7, one_plus_tau = 1.4;
+
+/* Two cells with the stresses, gradients and fluxes of these, and a bond between them with any force. */
 typedef struct bond {
-    double gradient[18], stress[18], s[3], force[3], ratio;
+    double gradient[18], stress[18], flux[18], s[3], force[3], ratio;
 } bond;
 
 static failure_stress looked_at(const bond *b)
@@ -22,49 +24,79 @@ static lane_mat3 of(const double *p)
     return (lane_mat3){p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]};
 }
 
-static int ruled_in(const bond *b, double limit, double shear, double reach)
+static int ruled_in(const bond *b, double limit, double shear, double reach, double steepest)
 {
     const lane_mat3 h = of(b->gradient), g = of(b->gradient + 9);
     const lane_sym3 stress =
         lane_sym3_add(soft_present_stress(h, of(b->stress)), soft_present_stress(g, of(b->stress + 9)));
     const dlsm_pull pull = {
         .force = {b->force[0], b->force[1], b->force[2]}, .area = {b->s[0], b->s[1], b->s[2]}, .ratio = b->ratio};
-    return soft_near(lane_mat3_add(h, g), stress, pull, (soft_bounds){limit, shear, reach});
+    return soft_near(lane_mat3_add(h, g), stress, pull, (soft_bounds){limit, shear, reach, steepest});
 }
 
-/* Stresses of some MPa with pushes of up to twenty times as much, strains to a tenth, bonds of a millimetre. Nothing
+/* The edge of the face, of a material with these constants: as the look has it, and whether lanes rule it in. */
+static double edge_of(const bond *b)
+{
+    const soft_vector s = {b->s[0], b->s[1], b->s[2]}, force = {b->force[0], b->force[1], b->force[2]};
+    const soft_vector uneven = soft_uneven(b->flux, b->gradient, 0, 1, s, modulus, ell, beta, one_plus_tau);
+    return soft_edge(0, uneven, force, soft_unit(soft_turned(b->gradient, 0, 1, s)), s, b->ratio);
+}
+static int edge_ruled_in(const bond *b, double limit)
+{
+    const dlsm_pull pull = {
+        .force = {b->force[0], b->force[1], b->force[2]}, .area = {b->s[0], b->s[1], b->s[2]}, .ratio = b->ratio};
+    return soft_near_edge(of(b->gradient), of(b->gradient + 9), of(b->flux), of(b->flux + 9), pull, limit, modulus, ell,
+                          beta, one_plus_tau);
+}
+
+/* Stresses of some MPa with pushes of up to twenty times as much, strains to a tenth, bonds of a millimetre that
+ * carry much or next to nothing. Nothing
  * that the look lets through is ruled out, and nothing is ruled in that stays below 0.99 of every limit: margins are
- * 0.1 and 0.2 %, and the largest principal value is exact in both. */
+ * 0.1 and 0.2 %, and the largest principal value is exact in both. Nor does a bond open that the traction rules out, or
+ * is an edge above the limit that is ruled out. */
 static void lanes_rule_out_what_the_look_does(void **state)
 {
     (void)state;
-    int in = 0, out = 0;
+    int in = 0, out = 0, leaning = 0, edges = 0, no_edges = 0;
     for (int k = 0; k < 200000; ++k) {
         bond b;
         const double push = 1e7 * (1 + one_lane_uniform(7, k, 42)), size = 0.1 * fabs(one_lane_uniform(7, k, 43)),
-                     limit = 8e6;
+                     limit = k % 2 ? 8e6 : 2e6;
         for (int c = 0; c < 18; ++c) {
             b.gradient[c] = size * one_lane_uniform(7, k, c);
             b.stress[c] = 5e6 * one_lane_uniform(7, k, 18 + c) - (c % 9 == 4 ? push : 0);
+            b.flux[c] = 5e6 * one_lane_uniform(7, k, 44 + c);
         }
         for (int c = 0; c < 3; ++c) {
             b.s[c] = 1e-6 * one_lane_uniform(7, k, 36 + c);
-            b.force[c] = 8 * one_lane_uniform(7, k, 39 + c);
+            b.force[c] = (k % 2 ? 8 : 0.5) * one_lane_uniform(7, k, 39 + c);
         }
         b.ratio = 1e3;
         const failure_stress whole = looked_at(&b);
-        const double first = failure_principal_of(whole).first;
-        const int near = ruled_in(&b, limit, 0, 0);
+        const failure_principal largest = failure_principal_of(whole);
+        const double first = largest.first;
+        const soft_vector n = soft_unit(soft_turned(b.gradient, 0, 1, (soft_vector){b.s[0], b.s[1], b.s[2]}));
+        const double across =
+            fabs(n.x * largest.first_axis.x + n.y * largest.first_axis.y + n.z * largest.first_axis.z);
+        const int near = ruled_in(&b, limit, 0, 0, 0), stands = ruled_in(&b, limit, 0, 0, 0.5);
+        assert_true(near || !stands);
+        assert_true(stands || !(first > limit && across >= 0.5));
+        leaning += near && !stands;
+        assert_true(edge_ruled_in(&b, limit) || edge_of(&b) < limit);
+        if (edge_ruled_in(&b, limit))
+            edges += 1;
+        else
+            no_edges += 1;
         assert_true(near || !soft_possible(whole, 0, limit, 0, 0));
         assert_true(!near || first > 0.99 * limit);
-        assert_true(ruled_in(&b, limit, 2e7, 1.4143 * 1.5) || !soft_possible(whole, 0, limit, 4e7, 0.5));
-        assert_true(ruled_in(&b, limit, soft_half_of(-4e7), 1.4143 * 1.5) ||
+        assert_true(ruled_in(&b, limit, 2e7, 1.4143 * 1.5, 0.5) || !soft_possible(whole, 0, limit, 4e7, 0.5));
+        assert_true(ruled_in(&b, limit, soft_half_of(-4e7), 1.4143 * 1.5, 0.5) ||
                     !soft_possible(whole, 0, limit, -4e7, 0.5));
         in += near, out += !near;
     }
-    assert_true(in > 20000 && out > 20000); /* both sides were tried */
-    const bond missing = {.ratio = 0};      /* without a face, and with no limit: never */
-    assert_false(ruled_in(&missing, CELLS_NEVER, 0, 0));
+    assert_true(in > 20000 && out > 20000 && leaning > 2000 && edges > 2000 && no_edges > 2000); /* all were tried */
+    const bond missing = {.ratio = 0}; /* without a face, and with no limit: never */
+    assert_false(ruled_in(&missing, CELLS_NEVER, 0, 0, 0.5) || edge_ruled_in(&missing, CELLS_NEVER));
 }
 
 int main(void)

@@ -10,6 +10,7 @@ BRC_OF_WANTS(int64_t, brc_each_row, w->layout->n_rows)
 BRC_OF_WANTS(int64_t, brc_each_block, w->layout->n_rows)
 BRC_OF_WANTS(int64_t, brc_each_row_end, (int64_t)w->layout->n_rows + 1)
 BRC_OF_WANTS(int64_t, brc_each_entry, w->layout->n_slots * w->layout->slice)
+BRC_OF_WANTS(int64_t, brc_each_record, w->layout->n_slots * w->layout->slice)
 BRC_OF_WANTS(int64_t, brc_each_slice, w->layout->n_slices)
 BRC_OF_WANTS(int64_t, brc_each_slice_end, (int64_t)w->layout->n_slices + 1)
 BRC_OF_WANTS(int64_t, brc_each_boundary, (int64_t)w->layout->n_boundary * w->layout->slice)
@@ -72,11 +73,8 @@ static void tell_order(brc_buffer *buffer, const brc_field_row *field, const brc
     static const struct {
         int64_t (*count)(const brc_wants *);
         brc_array_of what;
-    } orders[] = {{brc_each_row, BRC_OF_ROWS},
-                  {brc_each_block, BRC_OF_SLICES},
-                  {brc_each_group, BRC_OF_GROUPS},
-                  {brc_each_entry, BRC_OF_SLOTS},
-                  {brc_each_boundary, BRC_OF_LOOSE}};
+    } orders[] = {{brc_each_row, BRC_OF_ROWS},    {brc_each_block, BRC_OF_SLICES}, {brc_each_group, BRC_OF_GROUPS},
+                  {brc_each_entry, BRC_OF_SLOTS}, {brc_each_record, BRC_OF_SLOTS}, {brc_each_boundary, BRC_OF_LOOSE}};
     const int64_t number = field->number == BRC_FIELD_INT     ? (int64_t)sizeof(int32_t)
                            : field->number == BRC_FIELD_STATE ? wants->state_bytes
                                                               : wants->coeff_bytes;
@@ -84,7 +82,8 @@ static void tell_order(brc_buffer *buffer, const brc_field_row *field, const brc
     for (size_t k = 0; k < sizeof orders / sizeof *orders; ++k)
         if (field->count == orders[k].count) what = orders[k].what;
     const bool of_slices = what == BRC_OF_SLICES || what == BRC_OF_SLOTS;
-    brc_buffer_is_of(buffer, what, number * field->width * (of_slices ? wants->layout->slice : 1), number);
+    const int64_t thing = field->count == brc_each_record ? number * field->width : number; /* what lies in one piece */
+    brc_buffer_is_of(buffer, what, number * field->width * (of_slices ? wants->layout->slice : 1), thing);
 }
 
 brc_status brc_fields_create(brc_device *device, const brc_field_table *table, const brc_wants *wants, void *owner)

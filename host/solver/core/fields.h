@@ -99,7 +99,8 @@ typedef struct brc_field_table {
 int64_t brc_each_row(const brc_wants *wants);     /* storage row [n_rows] */
 int64_t brc_each_block(const brc_wants *wants);   /* the same, stored slice by slice: [n_slices][width][C] */
 int64_t brc_each_row_end(const brc_wants *wants); /* and one more */
-int64_t brc_each_entry(const brc_wants *wants);   /* stored half-edge [n_slots][C] */
+int64_t brc_each_entry(const brc_wants *wants);   /* stored half-edge [n_slots][width][C] */
+int64_t brc_each_record(const brc_wants *wants);  /* the same, of few of which much is asked: [n_slots][C][width] */
 int64_t brc_each_slice(const brc_wants *wants);
 int64_t brc_each_slice_end(const brc_wants *wants);
 int64_t brc_each_boundary(const brc_wants *wants); /* row of a slice with free faces */

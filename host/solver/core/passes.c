@@ -303,7 +303,8 @@ static const brc_field_row *row_of(const parameter *p, const brc_field_table *co
 
 static double bytes_of(const brc_field_row *row, const brc_wants *wants)
 {
-    const double n = row->count == brc_each_entry                                 ? (double)wants->domain->n_half_edges
+    const bool entries = row->count == brc_each_entry || row->count == brc_each_record;
+    const double n = entries                                                      ? (double)wants->domain->n_half_edges
                      : row->count == brc_each_row || row->count == brc_each_block ? (double)wants->domain->n_elements
                                                                                   : 0;
     const int32_t each = row->number == BRC_FIELD_STATE   ? wants->state_bytes

@@ -106,7 +106,7 @@ static void pass(const passage *p)
 brc_status brc_store_entry(brc_simulation *s, brc_state_store *store, const brc_state_entry *entry)
 {
     const brc_layout *layout = s->layout;
-    const bool entries = entry->arrangement == BRC_ENTRIES;
+    const bool entries = entry->arrangement == BRC_ENTRIES || entry->arrangement == BRC_RECORDS;
     const int64_t words = (entries ? layout->n_slots * layout->slice : (int64_t)layout->n_rows) * entry->width;
     const brc_stored_type type = type_of(s, entry->kind);
     const int bytes = brc_stored_type_bytes(type);
@@ -115,7 +115,7 @@ brc_status brc_store_entry(brc_simulation *s, brc_state_store *store, const brc_
                  .bytes = (size_t)bytes,
                  .width = entry->width,
                  .slice = layout->slice,
-                 .rows = entry->arrangement == BRC_ROWS,
+                 .rows = entry->arrangement == BRC_ROWS || entry->arrangement == BRC_RECORDS,
                  .loading = store->loading};
     brc_status status = BRC_OK;
     if (!entry->buffer) return BRC_OK;
@@ -210,7 +210,7 @@ brc_status brc_store_fields(brc_simulation *s, brc_state_store *store, const brc
     for (int i = 0; i < k->table->n; ++i) {
         const brc_field_row *field = &k->table->fields[i];
         const bool rows = field->count == brc_each_row, blocks = field->count == brc_each_block,
-                   entries = field->count == brc_each_entry;
+                   entries = field->count == brc_each_entry, records = field->count == brc_each_record;
         char name[96];
         if (!field->kept || (field->wanted && !field->wanted(&s->wants))) continue;
         snprintf(name, sizeof name, "%s%s", k->prefix ? k->prefix : "", field->kept);
@@ -219,11 +219,14 @@ brc_status brc_store_fields(brc_simulation *s, brc_state_store *store, const brc
             if (buffer) BRC_TRY(store->field(store, buffer));
             continue;
         }
-        if (rows || blocks || entries) {
+        if (rows || blocks || entries || records) {
             const brc_chosen *chosen = field->keep == BRC_KEEP_BROKEN   ? k->bonds
                                        : field->keep == BRC_KEEP_OWNERS ? k->elements
                                                                         : NULL;
-            const brc_arrangement arrangement = rows ? BRC_ROWS : blocks ? BRC_BLOCKS : BRC_ENTRIES;
+            const brc_arrangement arrangement = rows      ? BRC_ROWS
+                                                : blocks  ? BRC_BLOCKS
+                                                : entries ? BRC_ENTRIES
+                                                          : BRC_RECORDS;
             BRC_TRY(brc_store_entry(
                 s, store, &(brc_state_entry){name, buffer, arrangement, kind[field->number], field->width, chosen}));
         } else

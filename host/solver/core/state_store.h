@@ -54,9 +54,10 @@ brc_status brc_store_array(brc_context *context, brc_state_store *store, const c
 
 typedef enum brc_number_kind { BRC_OF_STATE, BRC_OF_COEFF, BRC_OF_INT } brc_number_kind;
 typedef enum brc_arrangement {
-    BRC_ROWS,   /* of elements [n_rows][width] */
-    BRC_BLOCKS, /* of elements [n_slices][width][C] */
-    BRC_ENTRIES /* of half-edges [n_slots][width][C] */
+    BRC_ROWS,    /* of elements [n_rows][width] */
+    BRC_BLOCKS,  /* of elements [n_slices][width][C] */
+    BRC_ENTRIES, /* of half-edges [n_slots][width][C] */
+    BRC_RECORDS  /* of half-edges [n_slots][C][width] */
 } brc_arrangement;
 
 /* Ids of elements or half-edges, ascending. */

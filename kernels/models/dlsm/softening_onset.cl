@@ -91,8 +91,8 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
 
 /* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and
  * axis is at least steepest) are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress
- * is below screen * limit of their weakest bond do not look; shear_least: norm below which no face slides [Pa].
- * found [n]. */
+ * is well below the limit of their weakest bond do not look (soft_looking); shear_least: norm below which no face
+ * slides [Pa]. found [n]. */
 KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, int shears, coeff slope,
                        coeff shear_least, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, GATHER(int) n_open,
                        OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
@@ -103,9 +103,9 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
         const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
-        const soft_members which =
-            soft_looking(who, h, p, screen * share, shears ? shear_least : CELLS_NEVER, n_open, least);
         const lane_sym3 own = soft_present_stress(h, p);
+        const soft_members which =
+            soft_looking(who, h, p, own, share, screen, shears ? shear_least : CELLS_NEVER, n_open, least);
         const dlsm_end end = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
         if (which.looking) members_later(who, gradient, 9, ahead), members_later(who, stress, 9, ahead);
         if (which.looking) members_later(who, flux, 9, ahead);
@@ -119,12 +119,16 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
             const lane_mat3 beside = lane_gather9(gradient, j);
             const soft_bounds below = {share * members_row1(who, limit, slot),
                                        shears ? share * soft_half_of(members_row1(who, shear_limit, slot)) : LANE_ZERO,
-                                       shears ? REAL(1.4143) * (REAL(1) + slope) : REAL(0)};
+                                       shears ? REAL(1.4143) * (REAL(1) + slope) : REAL(0), steepest};
             int near = soft_near(lane_mat3_add(h, beside),
-                                 lane_sym3_add(own, soft_present_stress(beside, lane_gather9(stress, j))), pull, below);
-#define EDGES(l) near |= (which.open >> 0x##l & 1 && n_open[LANE_ITEM(j, l)] > 0) << 0x##l;
+                                 lane_sym3_add(own, soft_present_stress(beside, lane_gather9(stress, j))), pull, below),
+                both = 0;
+#define EDGES(l) both |= (which.open >> 0x##l & 1 && n_open[LANE_ITEM(j, l)] > 0) << 0x##l;
             if (which.open) { LANE_EACH(EDGES) }
 #undef EDGES
+            if (both & ~near)
+                near |= both & soft_near_edge(h, beside, end.b, lane_gather9(flux, j), pull, below.limit, k_one,
+                                              ell_one, beta, one_plus_tau);
             near &= which.looking;
             for (int l = 0; near >> l; ++l)
                 if (near >> l & 1)

@@ -1,5 +1,5 @@
 /* Records of the open faces of cells (softening.cl, softening_onset.cl).
- * crack [n_slots][SOFT_WIDTH][C], of an entry (vectors seen from its own element): the opening w [m]; what the last
+ * crack [n_slots][C][SOFT_WIDTH], of an entry (vectors seen from its own element): the opening w [m]; what the last
  * step added to it, SHIFT [m]; PULL: force of the bond on the own element at the last evaluation [N]; START, ENERGY:
  * soft_face (ENERGY before the onset: G_c S) [N] [J]; ONSET: principal stress at the onset [Pa]; WIDEST: largest
  * opening, |w| and |v| together [m]; SPENT: energy that its cohesion took so far but for what is HELD, which comes back
@@ -38,18 +38,18 @@
 #define SOFT_WISH 100 /* in mark: the bond is to open */
 
 #define SOFT_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
-#define SOFT_NUMBER(entry, what) crack[(((entry) / C) * SOFT_WIDTH + SOFT_##what) * C + (entry) % C]
+#define SOFT_NUMBER(entry, what) crack[(entry)*SOFT_WIDTH + SOFT_##what]
 #define SOFT_IS_SLIDING(entry) (SOFT_NUMBER(entry, TURNS) > REAL(1))
 
 LAW soft_vector soft_part(GATHER(coeff) crack, brc_size entry, int what)
 {
-    GLOBAL const coeff *p = crack + ((entry / C) * SOFT_WIDTH + (brc_size)what) * C + entry % C;
-    return (soft_vector){p[0], p[C], p[2 * C]};
+    GLOBAL const coeff *p = crack + entry * SOFT_WIDTH + what;
+    return (soft_vector){p[0], p[1], p[2]};
 }
 LAW void soft_put(SCATTER(coeff) crack, brc_size entry, int what, soft_vector a)
 {
-    GLOBAL coeff *p = crack + ((entry / C) * SOFT_WIDTH + (brc_size)what) * C + entry % C;
-    p[0] = a.x, p[C] = a.y, p[2 * C] = a.z;
+    GLOBAL coeff *p = crack + entry * SOFT_WIDTH + what;
+    p[0] = a.x, p[1] = a.y, p[2] = a.z;
 }
 /* Area vector of an entry [m^2]. */
 LAW soft_vector soft_area(OWN(coeff) area, brc_size entry)

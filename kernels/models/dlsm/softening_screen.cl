@@ -13,15 +13,24 @@ LAW lane soft_square(lane_mat3 a)
            a.zy * a.zy + a.zz * a.zz;
 }
 
-/* Elements look whose own stress is above screen * share * limit of their weakest bond, as the largest principal value
- * is not above the Frobenius norm, or that have open faces. */
-LAW soft_members soft_looking(members who, lane_mat3 gradient, lane_mat3 stress, coeff screen, coeff weakest,
-                              OWN(int) n_open, OWN(coeff) least)
+/* Room that the largest principal value leaves below a limit, 0 or more where it is not above. */
+LAW lane soft_room_below(lane_sym3 s, lane limit)
 {
-    const lane none = LANE_ZERO;
-    const lane strain = soft_square(gradient), square = soft_square(stress);
-    const lane bound = screen * lane_min(members_number(who, least), none + weakest) / (REAL(1) + LANE_SQRT(strain));
-    const lane room = bound * bound - square;
+    const lane a = limit - s.xx, b = limit - s.yy, c = limit - s.zz, minor = a * b - s.xy * s.xy;
+    return lane_min(lane_min(a, minor), c * minor - s.yz * (a * s.yz + s.xy * s.xz) - s.xz * (s.xy * s.yz + s.xz * b));
+}
+
+/* Elements look that have open faces, or whose largest principal stress and a part of the norm of the stress, by which
+ * that of their bonds may differ, are above the limit of their weakest bond: that part counts as much as makes a pull
+ * look from screen * limit on. Or that may slide: from screen * weakest on. */
+LAW soft_members soft_looking(members who, lane_mat3 gradient, lane_mat3 stress, lane_sym3 present, coeff share,
+                              coeff screen, coeff weakest, OWN(int) n_open, OWN(coeff) least)
+{
+    const lane norm = LANE_SQRT(soft_square(stress)) * (REAL(1) + LANE_SQRT(soft_square(gradient)));
+    const lane limit = share * members_number(who, least), per = REAL(1) / limit; /* no limit, 1e30 Pa */
+    const lane_sym3 part = lane_sym3_scale_shift(per, present, LANE_ZERO);
+    const lane room = lane_min(soft_room_below(part, REAL(1) - (REAL(1) / screen - REAL(1)) * per * norm),
+                               LANE_ZERO + screen * share * weakest - norm);
     soft_members out = {0, 0};
 #define LOOKING(l)                                                                                                     \
     out.open |= (n_open[LANE_ITEM(who.own, l)] > 0) << 0x##l;                                                          \
@@ -42,22 +51,46 @@ LAW lane_sym3 soft_present_stress(lane_mat3 gradient, lane_mat3 stress)
 LAW lane soft_half_of(lane shear_limit) { return REAL(0.5) * lane_max(shear_limit, -shear_limit); }
 
 /* Of the bonds in a slot: limit of the largest principal stress [Pa]; no plane slides where reach times the norm is
- * below shear [Pa] (reach 0: none slides at all). */
+ * below shear [Pa] (reach 0: none slides at all); least cosine of the normal to the axis of a tension that opens. */
 typedef struct {
     lane limit, shear;
-    coeff reach;
+    coeff reach, steepest;
 } soft_bounds;
 
-/* Bits of the bonds in a slot whose stress (soft_stress: the mean of the cells' with the traction of the bond) may be
- * above a limit. gradient, stress: sums over the two cells; pull: the bond's. */
-LAW int soft_near(lane_mat3 gradient, lane_sym3 stress, dlsm_pull pull, soft_bounds below)
+/* Of a bond: its normal in the present frame, and 1 / (area limit) [1/N]. */
+typedef struct {
+    lane_vec3 normal;
+    lane per, over; /* 1 / limit, so that no limit, 1e30 Pa, overflows nothing */
+} soft_side_of_bond;
+LAW soft_side_of_bond soft_side_at(lane_mat3 gradient, dlsm_pull pull, lane limit)
 {
     const lane middle = LANE_ZERO + REAL(0.5), tiny = LANE_ZERO + REAL(1e-30), one = LANE_ZERO + REAL(1);
-    const lane per = one / below.limit; /* so that no limit, 1e30 Pa, overflows nothing */
     const lane_vec3 branch = lane_vec3_scale(pull.ratio, pull.area);
     const lane_vec3 turned = lane_vec3_add(branch, lane_vec3_scale(middle, lane_mat3_mul_vec(gradient, branch)));
-    const lane_vec3 n = lane_vec3_scale(one / LANE_SQRT(lane_vec3_dot(turned, turned) + tiny), turned);
-    const lane over = per * pull.ratio / LANE_SQRT(lane_vec3_dot(branch, branch) + tiny); /* 1 / (area limit) */
+    const lane per = one / limit;
+    return (soft_side_of_bond){lane_vec3_scale(one / LANE_SQRT(lane_vec3_dot(turned, turned) + tiny), turned), per,
+                               per * pull.ratio / LANE_SQRT(lane_vec3_dot(branch, branch) + tiny)};
+}
+LAW int soft_short_of(lane room)
+{
+    int out = 0;
+    if (!LANE_ANY_SHORT(room, LANE_ZERO)) return out;
+#define NEAR(l) out |= !(LANE_ITEM(room, l) >= 0) << 0x##l;
+    LANE_EACH(NEAR)
+#undef NEAR
+    return out;
+}
+
+/* Bits of the bonds in a slot whose stress (soft_stress: the mean of the cells' with the traction of the bond) may be
+ * above a limit. By tension alone it is not where the traction, sum of s_k c_k e_k over the principal axes, whose
+ * cosines with the normal are c_k, is below steepest times the limit: then s1 c1 is. gradient, stress: sums over the
+ * two cells; pull: the bond's. */
+LAW int soft_near(lane_mat3 gradient, lane_sym3 stress, dlsm_pull pull, soft_bounds below)
+{
+    const lane middle = LANE_ZERO + REAL(0.5);
+    const soft_side_of_bond side = soft_side_at(gradient, pull, below.limit);
+    const lane_vec3 n = side.normal;
+    const lane per = side.per, over = side.over;
     const lane_sym3 mean = lane_sym3_scale_shift(middle * per, stress, LANE_ZERO);
     const lane_vec3 own = lane_sym3_mul_vec(mean, n);
     const lane_vec3 t = {over * pull.force.x - own.x, over * pull.force.y - own.y, over * pull.force.z - own.z};
@@ -66,17 +99,42 @@ LAW int soft_near(lane_mat3 gradient, lane_sym3 stress, dlsm_pull pull, soft_bou
                zz = mean.zz + REAL(2) * m.z * n.z, yz = mean.yz + m.y * n.z + m.z * n.y,
                xz = mean.xz + m.x * n.z + m.z * n.x, xy = mean.xy + m.x * n.y + m.y * n.x;
     const coeff near = REAL(0.998);
-    const lane a = near - xx, b = near - yy, c = near - zz; /* failure_all_below */
-    const lane minor = a * b - xy * xy;
-    lane room = lane_min(lane_min(a, minor), c * minor - yz * (a * yz + xy * xz) - xz * (xy * yz + xz * b));
+    lane room = soft_room_below((lane_sym3){xx, yy, zz, yz, xz, xy}, LANE_ZERO + near); /* failure_all_below */
     if (below.reach > 0) {
         const lane square = xx * xx + yy * yy + zz * zz + REAL(2) * (yz * yz + xz * xz + xy * xy);
         room = lane_min(room, near * per * below.shear - below.reach * LANE_SQRT(square));
+    } else {
+        const coeff least = near * below.steepest;
+        room = lane_max(room, least * least - over * over * lane_vec3_dot(pull.force, pull.force));
     }
-    int out = 0;
-    if (!LANE_ANY_SHORT(room, LANE_ZERO)) return out;
-#define NEAR(l) out |= !(LANE_ITEM(room, l) >= 0) << 0x##l;
-    LANE_EACH(NEAR)
-#undef NEAR
-    return out;
+    return soft_short_of(room);
+}
+
+/* k [beta M s - (1 + tau) H s] / 2 of one cell, whose gradient this is. */
+LAW lane_vec3 soft_own_part(lane_mat3 gradient, lane_vec3 s, coeff half_k, lane ell, coeff beta, coeff one_plus_tau)
+{
+    const lane_vec3 along = lane_mat3_mul_vec(gradient, s), compact = dlsm_compaction_along(gradient, along, s, ell, 1);
+    return (lane_vec3){half_k * (beta * compact.x - one_plus_tau * along.x),
+                       half_k * (beta * compact.y - one_plus_tau * along.y),
+                       half_k * (beta * compact.z - one_plus_tau * along.z)};
+}
+/* Bits of the bonds in a slot whose edge may be above the limit (soft_edge; uneven pulls as soft_uneven has them, of
+ * which all counts). gradient, flux: of the own cells and those beside. */
+LAW int soft_near_edge(lane_mat3 gradient, lane_mat3 gradient_beside, lane_mat3 flux, lane_mat3 flux_beside,
+                       dlsm_pull pull, lane limit, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau)
+{
+    const lane_vec3 s = pull.area;
+    const soft_side_of_bond side = soft_side_at(lane_mat3_add(gradient, gradient_beside), pull, limit);
+    lane_vec3 uneven = lane_mat3_mul_vec(lane_mat3_sub(flux, flux_beside), s);
+#if BRC_MANY_MATERIALS
+    (void)k_one, (void)ell_one, (void)beta, (void)one_plus_tau;
+#else
+    const lane ell = LANE_ZERO + ell_one;
+    uneven = lane_vec3_sub(uneven, soft_own_part(gradient, s, REAL(0.5) * k_one, ell, beta, one_plus_tau));
+    uneven = lane_vec3_add(uneven, soft_own_part(gradient_beside, s, REAL(0.5) * k_one, ell, beta, one_plus_tau));
+#endif
+    const lane tiny = LANE_ZERO + REAL(1e-30), across = side.over * lane_vec3_dot(pull.force, side.normal);
+    const lane turning = LANE_SQRT(lane_vec3_dot(uneven, uneven)) * pull.ratio *
+                         LANE_SQRT(LANE_SQRT(lane_vec3_dot(s, s) + tiny)) * side.over; /* ratio / sqrt(area) / limit */
+    return soft_short_of(REAL(0.998) - (turning + lane_max(across, LANE_ZERO)));
 }

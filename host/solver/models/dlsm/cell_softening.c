@@ -8,8 +8,8 @@
 /* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open
  * (docs/notebook/fracture.md). */
 static const double steepest = 0.5;
-/* Faces look at their own traction where the stress of a cell is above this share of the limit (softening.cl,
- * soft_check): the two agree within a few percent where nothing is open. */
+/* Faces look at their own traction where a pull on a cell is above this share of the limit (softening_screen.cl,
+ * soft_looking): the two agree within a few percent where nothing is open. */
 static const double screen = 0.7;
 /* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated
  * from above, that they take: less than a half would let them overshoot. What they leave of the balance costs energy in
@@ -30,7 +30,7 @@ enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
     brc_pass *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
-    brc_buffer *crack, *open, *lead;    /* [n_slots][WIDTH][C], [n_slots][C] */
+    brc_buffer *crack, *open, *lead;    /* [n_slots][C][WIDTH], [n_slots][C] */
     brc_buffer *n_open, *reach, *shear; /* [n_rows] */
     brc_buffer *shear_limit;            /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
     brc_buffer *shear_energy;           /* [n_slots][C] and G_II S [J] */
@@ -48,7 +48,7 @@ BRC_WANTED(slides, brc_scene_slides(w->scene, w->scene->model.kind))
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {
-    BRC_KEPT_FIELD(crack, brc_each_entry, WIDTH, COEFF, NULL, "cohesion of faces", "-", "softening.crack"),
+    BRC_KEPT_FIELD(crack, brc_each_record, WIDTH, COEFF, NULL, "cohesion of faces", "-", "softening.crack"),
     BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open faces", "-", "softening.open"),
     BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of faces", "-"),
     BRC_KEPT_FIELD(n_open, brc_each_row, 1, INT, NULL, "open faces", "-", "softening.n_open"),
@@ -129,9 +129,8 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
-        double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
-        own[ENERGY * layout->slice] = strengths->energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
-        own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
+        crack[WIDTH * k + ENERGY] = strengths->energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
+        crack[WIDTH * k + EXPONENTIAL] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
     for (int32_t r = 0; r < layout->n_rows; ++r)
@@ -385,9 +384,9 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
     BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"), bytes, alive, n_entries));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
-        const double *own = crack + (k / layout->slice) * WIDTH * layout->slice + k % layout->slice;
-        if (h < 0 || !(own[START * layout->slice] > 0) || d->neighbour[d->twin[h]] > d->neighbour[h]) continue;
-        const double spent = own[SPENT * layout->slice], tilt = own[TILT * layout->slice];
+        const double *own = crack + WIDTH * k;
+        if (h < 0 || !(own[START] > 0) || d->neighbour[d->twin[h]] > d->neighbour[h]) continue;
+        const double spent = own[SPENT], tilt = own[TILT];
         out->n_opened += 1;
         out->spent += spent;
         if (alive[k] > 0 && open[k] != APART) {
@@ -395,7 +394,7 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
             continue;
         }
         out->n_ended += 1;
-        out->area += tilt * own[COSINE * layout->slice] * brc_norm3(d->area_vector + 3 * (int64_t)h);
+        out->area += tilt * own[COSINE] * brc_norm3(d->area_vector + 3 * (int64_t)h);
     }
     return BRC_OK;
 }
