@@ -12,6 +12,7 @@ struct brc_context {
     char *message;           /* sentences of the failures, '\n' between them; NULL: none */
     size_t message_length;   /* without the NUL [byte] */
     size_t message_capacity; /* [byte] */
+    const char *place;       /* of wrong input; NULL: none. Borrowed */
     brc_progress *progress;  /* the one whose line may stand on the terminal; NULL: none. Borrowed */
 };
 

@@ -58,6 +58,11 @@ void brc_context_clear(brc_context *context)
     context->message[0] = '\0';
 }
 
+void brc_context_set_place(brc_context *context, const char *place)
+{
+    if (context) context->place = place;
+}
+
 /* Room for `more` bytes and the NUL; false when memory is exhausted or the limit is reached. */
 static bool reserve(brc_context *context, size_t more)
 {
@@ -84,12 +89,16 @@ brc_status brc_context_fail(brc_context *context, brc_status code, const char *w
     const int length = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
     const size_t separator = context->message_length > 0 ? 1 : 0;
+    const char *place = code == BRC_BAD_INPUT && context->place ? context->place : "";
+    const size_t before = separator + strlen(place);
     /* The code is what callers act on: it is returned even where the sentence finds no room. */
-    if (length >= 0 && reserve(context, separator + (size_t)length)) {
+    if (length >= 0 && reserve(context, before + (size_t)length)) {
         char *end = context->message + context->message_length;
         if (separator) *end++ = '\n';
+        strcpy(end, place);
+        end += strlen(place);
         vsnprintf(end, (size_t)length + 1, format, again);
-        context->message_length += separator + (size_t)length;
+        context->message_length += before + (size_t)length;
         brc_log(context, BRC_LOG_DEBUG, "%s: %s: %s", where, brc_status_text(code), end);
     }
     va_end(again);

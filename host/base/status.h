@@ -50,6 +50,12 @@ void brc_context_clear(brc_context *context);
 brc_status brc_context_fail(brc_context *context, brc_status code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* Wrong input that is found from now on is at this place: failures of BRC_BAD_INPUT begin with it. NULL or "": at none.
+ * Borrowed. */
+void brc_context_set_place(brc_context *context, const char *place);
+/* Room for a place, "file:line:col: error: ". */
+#define BRC_PLACE_LENGTH 768
+
 #define BRC_STRING_(x) #x
 #define BRC_STRING(x) BRC_STRING_(x)
 #define BRC_FAIL(context, code, ...) brc_context_fail((context), (code), __FILE__ ":" BRC_STRING(__LINE__), __VA_ARGS__)

@@ -279,7 +279,7 @@ static brc_status fit_gilvarry(brc_context *context, const sieves *s, brc_study_
     double least = INFINITY, best[3] = {0};
     found->n = s->n;
     for (int kinds = 1; s->n > 3 && kinds < 8; ++kinds) {
-        double c[3], left;
+        double c[3] = {0}, left;
         BRC_TRY(flaws_left(context, s, kinds, c, &left));
         if (left < least) {
             least = left;

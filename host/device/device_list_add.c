@@ -1,4 +1,5 @@
 #include "../base/memory.h"
+#include "device_internal.h"
 #include "device_list.h"
 
 brc_status brc_device_list_add(brc_context *context, brc_device_list *list, const brc_device_info *info)

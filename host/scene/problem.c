@@ -88,14 +88,20 @@ static int by_place(const void *left, const void *right)
 }
 
 /* "file:line:col: ", or the override in its place. */
-static const char *place_of(const brc_problems *problems, const problem *item, char *out, size_t room)
+static const char *place_of(const brc_problems *problems, brc_mark mark, char *out, size_t room)
 {
-    if (item->mark.source == 0)
-        snprintf(out, room, "%s:%d:%d: ", problems->name, item->mark.line, item->mark.column);
+    if (mark.source == 0)
+        snprintf(out, room, "%s:%d:%d: ", problems->name, mark.line, mark.column);
     else
-        snprintf(out, room, "%s: in the override '%.200s': ", problems->name,
-                 problems->overrides[item->mark.source - 1]);
+        snprintf(out, room, "%s: in the override '%.200s': ", problems->name, problems->overrides[mark.source - 1]);
     return out;
+}
+
+void brc_problems_place(const brc_problems *problems, brc_mark mark, char out[BRC_PLACE_LENGTH])
+{
+    static const char word[] = "error: ";
+    place_of(problems, mark, out, BRC_PLACE_LENGTH - sizeof word);
+    strcat(out, word);
 }
 
 brc_status brc_problems_report(brc_problems *problems)
@@ -104,7 +110,7 @@ brc_status brc_problems_report(brc_problems *problems)
     char place[1024];
     qsort(list->items, (size_t)list->n, sizeof list->items[0], by_place);
     for (int i = 0; i < list->n; ++i) {
-        place_of(problems, &list->items[i], place, sizeof place);
+        place_of(problems, list->items[i].mark, place, sizeof place);
         if (list == &problems->errors)
             BRC_FAIL(problems->context, BRC_BAD_INPUT, "%serror: %s", place, list->items[i].text);
         else

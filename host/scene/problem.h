@@ -29,6 +29,9 @@ int brc_problems_count(const brc_problems *problems);
  * any, log the warnings as "warning: file:line:col: ..." and return BRC_OK. */
 brc_status brc_problems_report(brc_problems *problems);
 
+/* A mark as errors begin with it, "file:line:col: error: ", or with the override. */
+void brc_problems_place(const brc_problems *problems, brc_mark mark, char out[BRC_PLACE_LENGTH]);
+
 /* The nearest of `n` known words to `found` by edit distance, NULL when none is near enough to be a slip. */
 const char *brc_nearest_word(const char *found, int n, const char *const *known);
 /* The same, but NULL when no more problems are told: a hostile file would make us guess for minutes. */

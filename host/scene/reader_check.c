@@ -341,10 +341,23 @@ static brc_status check_rest(brc_reader *reader)
     return BRC_OK;
 }
 
+/* What is only seen to be wrong once the domain is built knows its place. */
+static void keep_places(brc_reader *reader)
+{
+    brc_scene *scene = reader->scene;
+    for (int32_t k = 0; k < scene->n_sets; ++k)
+        brc_problems_place(reader->problems, brc_reader_place(reader, scene->sets[k].name, &scene->sets[k]),
+                           scene->sets[k].place);
+    for (int32_t k = 0; k < scene->n_sensors; ++k)
+        brc_problems_place(reader->problems, brc_reader_place(reader, scene->sensors[k].set, &scene->sensors[k]),
+                           scene->sensors[k].place);
+}
+
 brc_status brc_reader_check(brc_reader *reader)
 {
     if (reader->n_places > 0) qsort(reader->places, (size_t)reader->n_places, sizeof *reader->places, by_address);
     complete(reader->scene);
+    keep_places(reader);
     brc_wall_names *walls = NULL;
     brc_status status = check_names(reader, &walls);
     if (status == BRC_OK) status = check_rest(reader);

@@ -2,6 +2,7 @@
 #ifndef BRC_SCENE_SCENE_OUTPUT_H
 #define BRC_SCENE_SCENE_OUTPUT_H
 
+#include "../base/status.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -55,6 +56,7 @@ typedef struct brc_sensor {
     char term[BRC_NAME]; /* energy: "kinetic", "elastic", "stabilisation", "work", "damping", "numerical", "fracture",
                             "contact", "friction", "impact", "potential", "total", "closure" */
     int32_t index;
+    char place[BRC_PLACE_LENGTH]; /* in the scene file, of errors that the built domain shows; "": made in code */
 } brc_sensor;
 
 typedef enum brc_measure_kind {

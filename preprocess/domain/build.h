@@ -110,6 +110,7 @@ typedef struct brc_set_request {
     char name[64];
     brc_set_kind kind;
     brc_predicate where;
+    char place[BRC_PLACE_LENGTH]; /* in the scene file, of its errors; "": made in code */
 } brc_set_request;
 
 /* A crack that is there from the start: the bonds whose face it crosses are cut, the two sides become free faces of the

@@ -283,8 +283,13 @@ brc_status brc_sets_build(brc_context *context, int32_t n, const brc_set_request
     else
         for (int32_t w = 0; w < domain->n_walls; ++w)
             BRC_TRY_OR(cleanup, build_wall(context, w, domain));
-    for (int32_t s = 0; s < n; ++s)
-        BRC_TRY_OR(cleanup, build_one(context, &requests[s], domain));
+    for (int32_t s = 0; s < n; ++s) { /* all wrong sets in one pass */
+        brc_context_set_place(context, requests[s].place);
+        const brc_status one = build_one(context, &requests[s], domain);
+        brc_context_set_place(context, NULL);
+        if (one != BRC_OK) status = one;
+    }
+    if (status != BRC_OK) goto cleanup;
     for (int32_t s = 0; s < n_old; ++s)
         if (old[s].name && brc_domain_find_set(domain, old[s].name) < 0) keep(old, n_old, old[s].name, domain);
 cleanup:

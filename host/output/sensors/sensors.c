@@ -51,7 +51,9 @@ brc_status brc_sensors_create(brc_context *context, const brc_scene *scene, cons
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->outward, n, "sensors"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &sensors->distance, n, "sensors"));
     for (int32_t s = 0; s < n; ++s) { /* all wrong sensors in one pass */
+        brc_context_set_place(context, scene->sensors[s].place);
         const brc_status one = prepare(sensors, s);
+        brc_context_set_place(context, NULL);
         if (one != BRC_OK) status = one;
     }
     if (status == BRC_OK) status = allocate_fields(sensors);
