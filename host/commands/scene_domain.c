@@ -133,8 +133,12 @@ static brc_status make_bodies(brc_context *context, const brc_scene *scene, int 
     BRC_TRY(BRC_ALLOCATE(context, &out->name, scene->n_bodies, "bodies of a scene"));
     for (int32_t b = 0; b < scene->n_bodies; ++b)
         out->name[b] = scene->bodies[b].name;
-    for (int32_t b = 0; b < scene->n_bodies; ++b)
-        BRC_TRY(make_body(context, scene, b, n_threads, &out->domain[b]));
+    for (int32_t b = 0; b < scene->n_bodies; ++b) {
+        brc_context_set_place(context, scene->bodies[b].place);
+        const brc_status status = make_body(context, scene, b, n_threads, &out->domain[b]);
+        brc_context_set_place(context, NULL);
+        BRC_TRY(status);
+    }
     return BRC_OK;
 }
 

@@ -345,6 +345,9 @@ static brc_status check_rest(brc_reader *reader)
 static void keep_places(brc_reader *reader)
 {
     brc_scene *scene = reader->scene;
+    for (int32_t k = 0; k < scene->n_bodies; ++k)
+        brc_problems_place(reader->problems, brc_reader_place(reader, &scene->bodies[k].fill, &scene->bodies[k]),
+                           scene->bodies[k].place);
     for (int32_t k = 0; k < scene->n_sets; ++k)
         brc_problems_place(reader->problems, brc_reader_place(reader, scene->sets[k].name, &scene->sets[k]),
                            scene->sets[k].place);

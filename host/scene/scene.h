@@ -199,7 +199,8 @@ typedef struct brc_phase {
 
 typedef struct brc_body {
     char name[BRC_NAME];
-    char domain_file[512]; /* "" : built from shape and fill; else read from this file (relative to the scene) */
+    char place[BRC_PLACE_LENGTH]; /* in the scene file, of errors that building shows; "": made in code */
+    char domain_file[512];        /* "" : built from shape and fill; else read from this file (relative to the scene) */
     brc_shape shape;
     brc_fill fill;
     double translation[3], rotation[3]; /* pose, as in brc_build_request */

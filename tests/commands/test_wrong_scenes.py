@@ -55,7 +55,9 @@ WRONG = [
     ("component: w", "component: x", [("18:42", "'w' is none of the words", "expected one of x, y, z")]),
     ("model: dlsm\nmodel: cbm", "model: dlsm", [("5:1", "duplicate key 'model', given before at 4:1", "keep one")]),
     ("fracture: true\ncontact: {friction: 0.3}", "fracture: true", [("6:1", "unknown key 'contact'", "as in interactions: {contact: ...}")]),
-    # seen once the domain is built
+    # seen while the domain is built, and once it is
+    ("elements: 1", "elements: 300", [("9:11", "fill: 1 cells across", "a thicker body")]),
+    ("noisy_grid: {elements: 300}}\n    grains: {number: 1000}", "noisy_grid: {elements: 300}}", [("9:11", "1000 grains", "ask for at most")]),
     ("component: y, sign: compression", "component: x", [("18:27", "\"x+\" looks neither way along y", "leave `sign` out, or name the set of one side")]),
     ("output: {frames: 2}\nsets:\n  far: {faces: {box: {from: [1 m, 0, 0], to: [2 m, 1 m, 1 m]}}}\n  near: {elements: {box: {from: [-2 m, 0, 0], to: [-1 m, 1 m, 1 m]}}}", "output: {frames: 2}",
      [("21:8", "set 'far' is empty", "widen the region"), ("22:9", "set 'near' is empty", "widen the region")]),
