@@ -6,7 +6,6 @@
 #include "label.h"
 #include "paint.h"
 #include "../frames/striker_file.h"
-#include "../../base/file.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -463,7 +462,6 @@ brc_status brc_picture_draw(brc_context *context, const brc_picture *picture, co
                 .view = picture->view ? *picture->view : brc_paint_corner_view()};
     const int32_t all = picture->n + picture->n_strikers;
     brc_status status = BRC_OK;
-    if (!brc_file_writes()) return BRC_OK;
     if (!(c.scale > 0)) c.scale = picture->steady ? 1 : brc_picture_automatic_scale(picture->n, picture->part);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &c.surface, picture->n, "parts of the picture"));
     for (int32_t k = 0; k < picture->n; ++k)
