@@ -73,6 +73,15 @@ static int open_first(const address *first, int file)
     return first->process == getpid() ? dup(file) : open(path, O_RDONLY | O_CLOEXEC);
 }
 
+/* Pages that are written become the rank's own. at: where, or NULL. */
+static bool map_file(int file, int64_t bytes, void *at, brc_machine_memory *out)
+{
+    void *const data =
+        mmap(at, (size_t)bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE | (at ? MAP_FIXED : 0), file, 0);
+    if (data != MAP_FAILED) *out = (brc_machine_memory){data, bytes};
+    return data != MAP_FAILED;
+}
+
 static brc_status map(brc_context *context, int file, void *at, brc_machine_memory *out)
 {
     address first = {.file = -1};
@@ -87,13 +96,9 @@ static brc_status map(brc_context *context, int file, void *at, brc_machine_memo
         status = BRC_FAIL(context, BRC_INTERNAL, "%lld ranks cannot open the memory of their machine's first",
                           (long long)lacks);
     if (status == BRC_OK) {
-        void *const data = mmap(at, (size_t)first.bytes, PROT_READ | PROT_WRITE,
-                                MAP_PRIVATE | MAP_NORESERVE | (at ? MAP_FIXED : 0), there, 0);
-        if (data == MAP_FAILED)
+        if (!map_file(there, first.bytes, at, out))
             status = BRC_FAIL(context, BRC_NO_MEMORY, "%lld bytes of the machine's first rank: %s",
                               (long long)first.bytes, strerror(errno));
-        else
-            *out = (brc_machine_memory){data, first.bytes};
     }
     if (there >= 0) close(there);
     return brc_ranks_agree(context, status); /* a rank alone without it would go on another way */
@@ -101,8 +106,14 @@ static brc_status map(brc_context *context, int file, void *at, brc_machine_memo
 
 brc_status brc_machine_memory_map(brc_context *context, int file, brc_machine_memory *out)
 {
+    const int kept = file >= 0 ? dup(file) : -1;
+    struct stat about;
     const brc_status status = map(context, file, NULL, out);
-    if (status != BRC_OK) brc_machine_memory_free(out);
+    if (status != BRC_OK) {
+        brc_machine_memory_free(out);
+        if (kept >= 0 && fstat(kept, &about) == 0) (void)map_file(kept, about.st_size, NULL, out);
+    }
+    if (kept >= 0) close(kept);
     return status;
 }
 

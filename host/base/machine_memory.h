@@ -13,7 +13,8 @@ typedef struct brc_machine_memory {
 
 /* All ranks, after the first rank of each machine (brc_ranks_place.local 0) has made `file` (brc_machine_file): the
  * bytes of that file are in *out, on all ranks of the machine, until brc_machine_memory_free. file: of the first rank;
- * closed here. BRC_INTERNAL, on all ranks: some rank may not open it, as across containers; out->data is then NULL. */
+ * closed here. BRC_INTERNAL, on all ranks: some rank may not open it, as across containers; only the first of each
+ * machine then has them, out->data of the others is NULL. */
 brc_status brc_machine_memory_map(brc_context *context, int file, brc_machine_memory *out);
 void brc_machine_memory_free(brc_machine_memory *memory);
 

@@ -1,10 +1,13 @@
 /* Aligned, zeroed, counted host memory. A 64-byte header in front of each block keeps its size, so that freeing and
  * resizing need no second argument. */
 #include "memory.h"
+#include <malloc.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #define ALIGNMENT ((size_t)64)
 #define ELSEWHERE ((size_t)1) /* second word of a head: the block is not of the heap */
@@ -98,6 +101,21 @@ void brc_memory_free(void *block)
     if (size[1] == ELSEWHERE) return;
     count(-(int64_t)*size);
     free(size);
+}
+
+void brc_memory_trim(void)
+{
+#ifdef __GLIBC__
+    (void)malloc_trim(0);
+#endif
+}
+
+void brc_memory_forget(void *at, int64_t bytes)
+{
+    const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+    const uintptr_t first = ((uintptr_t)at + page - 1) / page * page,
+                    end = ((uintptr_t)at + (uintptr_t)bytes) / page * page;
+    if (first < end) (void)madvise((void *)first, (size_t)(end - first), MADV_DONTNEED); /* a wish */
 }
 
 void brc_memory_end_scope(void *variable)

@@ -15,6 +15,11 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t count, 
 brc_status brc_memory_resize(brc_context *context, void **block, int64_t count, size_t size, const char *what);
 /* Free a block got from brc_memory_allocate; accepts NULL. */
 void brc_memory_free(void *block);
+/* After many small blocks were freed: what they held goes back to the system. */
+void brc_memory_trim(void);
+/* The next `bytes` of a large block, at `at`, are not read any more: whole pages of them go back to the system. The
+ * block is still to be freed. */
+void brc_memory_forget(void *at, int64_t bytes);
 /* A variable that is freed where its scope ends, by a function that takes its address: BRC_ENDS_WITH(brc_buffer_free)
  * brc_buffer *x = NULL; and a block: BRC_FREED double *x = NULL. */
 #define BRC_ENDS_WITH(free) __attribute__((cleanup(free)))

@@ -339,6 +339,7 @@ brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data
     buffer->device->counts.written_bytes += bytes;
     if (brc_share_write(buffer, offset, data, bytes) || brc_share_once(buffer, offset, data, bytes)) return BRC_OK;
     BRC_TRY(brc_share_gather(buffer));
+    buffer->set = 0;
     return buffer->device->backend->write(buffer->device, buffer->memory, offset, data, bytes);
 }
 
@@ -364,6 +365,7 @@ brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes)
                         src->what, dst->what);
     if (bytes == 0) return BRC_OK;
     BRC_TRY(brc_share_copy(dst, src, bytes));
+    dst->set = 0;
     dst->device->counts.copied_bytes += bytes;
     return dst->device->backend->copy(dst->device, dst->memory, src->memory, bytes);
 }

@@ -59,6 +59,7 @@ struct brc_buffer {
     int where;              /* where its rows are right (shares_internal.h) */
     bool filled;            /* rows of all were brought together since pages were given back */
     int64_t given_back;     /* launches until then */
+    int64_t set;            /* number of the set (shares_internal.h) whose rows came since it was written; 0: none */
     bool marked;            /* flags are set at rows of other ranks that these do not know of */
     bool is_scratch;        /* memory of another one, not in the device's list */
     char what[64];

@@ -24,10 +24,10 @@ typedef struct shared {
         OWN_ITEMS,
         LISTED,
         AMONG
-    } way; /* all do all; own items; all do all, own rows are right; the same,
-            * and what is not of rows is right everywhere */
+    } way; /* all do all; own items; own rows are right, whoever does others; all do all, own rows are right, and
+            * what is not of rows is right everywhere */
     brc_array_of items;
-    int64_t first, end;     /* own items */
+    int64_t first, end;     /* own items; of a list, those that have own rows */
     int64_t numbers, block; /* BRC_OF_BLOCKS: numbers in all and of a block */
     int n_flying;           /* arrays whose rows of others come while the inside is computed */
     brc_flight flying[BRC_KERNEL_MOST_ARGS];
@@ -121,6 +121,35 @@ static bool has_list(const shared *l)
     return list && list->where == BRC_EVERYWHERE;
 }
 
+/* How many of n ascending rows are below one. */
+static int64_t rows_below(const int32_t *row, int64_t n, int32_t bound)
+{
+    int64_t low = 0;
+    while (low < n) {
+        const int64_t middle = (low + n) / 2;
+        if (row[middle] < bound)
+            low = middle + 1;
+        else
+            n = middle;
+    }
+    return low;
+}
+
+/* Of a list that items take several rows of (PASS of kernels.h), where the host sees it, those items that have own
+ * rows; else all. */
+static void find_listed(shared *l, int64_t n_items)
+{
+    const brc_device *device = l->kernel->device;
+    const shares *h = device->shares;
+    const int64_t n = l->args[1].kind == BRC_ARG_INT ? l->args[1].value.integer : 0, lanes = device->lanes;
+    l->end = n_items;
+    if (l->kernel->signature.list != 2 || device->info.kind != BRC_DEVICE_CPU || (n + lanes - 1) / lanes != n_items)
+        return;
+    const int32_t *const row = buffer_of(l, 2)->memory;
+    l->first = rows_below(row, n, h->first_slice[h->mine] * h->rows.slice) / lanes;
+    l->end = (rows_below(row, n, h->first_slice[h->mine + 1] * h->rows.slice) + lanes - 1) / lanes;
+}
+
 /* Rows of others than the set are written. */
 static bool scatters_rows(const shared *l)
 {
@@ -143,9 +172,10 @@ static void find_way(shared *l, int64_t n_items)
                                                                             : false;
     if (own)
         l->way = OWN_ITEMS;
-    else if (l->items == BRC_OF_NOTHING && has_list(l) && writes_rows(l, false))
+    else if (l->items == BRC_OF_NOTHING && has_list(l) && writes_rows(l, false)) {
         l->way = LISTED;
-    else if (h->among && !scatters_rows(l))
+        find_listed(l, n_items);
+    } else if (h->among && !scatters_rows(l))
         l->way = AMONG;
 }
 
@@ -206,6 +236,7 @@ static void leave(const shared *l)
     for (int a = 0; a < l->n_args; ++a) {
         brc_buffer *const buffer = buffer_of(l, a);
         const brc_use use = l->kernel->signature.use[a];
+        if (buffer && brc_use_writes(use)) buffer->set = 0;
         if (!buffer || l->way == ALIKE) continue;
         if (flags(use)) {
             buffer->where = BRC_NEAR;
@@ -278,7 +309,10 @@ brc_status brc_share_launch(brc_kernel *kernel, int64_t n_items, int n_args, con
     kernel->device->shares->n_launches += 1;
     find_way(&l, n_items);
     BRC_TRY(bring(&l));
-    if (n_items > 0) BRC_TRY(l.way == OWN_ITEMS ? launch_own(kernel, &l) : launch(kernel, n_items, n_args, args));
+    if (l.way == LISTED)
+        BRC_TRY(launch_range(kernel, &l, l.first, l.end));
+    else if (n_items > 0)
+        BRC_TRY(l.way == OWN_ITEMS ? launch_own(kernel, &l) : launch(kernel, n_items, n_args, args));
     leave(&l);
     return BRC_OK;
 }

@@ -1,10 +1,10 @@
-/* What of a device's arrays each rank (../base/ranks.h) computes. Every rank has arrays of all rows in the same order,
- * and runs the same program. A launch whose items are rows, groups, numbers or blocks of rows, and which writes those
- * alone, does the rank's own range; what it gathers from other ranks' rows comes before it does, from those that
- * compute them. Flags that it sets there go back. A launch over a list of rows is done by all: each is right at its
- * own. Any other launch, and what the host reads, is of arrays that are brought together first, and is done by all
- * alike. So every rank has the bits that one alone would have. Which rows a launch reads and writes follows from its
- * signature (kernel_signature.h): no model and no effect knows of ranks. */
+/* What of a device's arrays each rank (../base/ranks.h) computes. Every rank has arrays of all rows in the same
+ * order, and runs the same program. A launch whose items are rows, groups, numbers or blocks of rows, and which
+ * writes those alone, does the rank's own range; what it gathers from other ranks' rows comes before it does, from
+ * those that compute them. Flags that it sets there go back. A launch over a list of ascending rows is right at own
+ * ones: others need not be done. Any other launch, and what the host reads, is of arrays that are brought together
+ * first, and is done by all alike. So every rank has the bits that one alone would have. Which rows a launch reads
+ * and writes follows from its signature (kernel_signature.h): no model and no effect knows of ranks. */
 #ifndef BRC_DEVICE_SHARES_H
 #define BRC_DEVICE_SHARES_H
 
@@ -47,11 +47,17 @@ brc_rows_among *brc_device_keep_among(brc_device *device, brc_rows_among *among)
 /* Bytes held now: in arrays of rows, of which a rank touches its own part and what its bonds reach; and in those that
  * ranks of a machine have once. None on other devices than the cpu. */
 void brc_device_bytes_in_parts(const brc_device *device, int64_t *of_rows, int64_t *once);
-/* Whether several ranks share the rows; whether this one computes a row; whether one computes both. */
+/* Where the rows of a rank begin in the set, as it stands there: ascending, each once. rank: up to their number. */
+int32_t brc_rows_among_before(const brc_rows_among *among, int32_t rank);
+/* Whether several ranks share the rows; those of a rank, and those of this one. */
 bool brc_device_is_shared(const brc_device *device);
-bool brc_device_has_row(const brc_device *device, int32_t row);
-bool brc_device_rows_together(const brc_device *device, int32_t i, int32_t j);
-/* All ranks: the first n items of an array of no rows, `bytes` each, come from those that compute row [n]. */
-brc_status brc_buffer_bring_items(brc_buffer *buffer, int64_t bytes, int32_t n, const int32_t *row);
+typedef struct brc_row_range {
+    int32_t first, end;
+} brc_row_range;
+brc_row_range brc_device_rows_of(const brc_device *device, int32_t rank);
+brc_row_range brc_device_rows_here(const brc_device *device);
+/* All ranks: items [before[k], before[k + 1]) of an array of no rows, `bytes` each, come from rank k. place: where
+ * those items are; NULL: one after another from the start. */
+brc_status brc_buffer_bring_ranges(brc_buffer *buffer, int64_t bytes, const int64_t *before, const int32_t *place);
 
 #endif

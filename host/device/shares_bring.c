@@ -74,6 +74,19 @@ typedef struct rows_of {
     const int64_t *slots;
 } rows_of;
 
+/* memcpy of a number, a vector or a tensor without a call. */
+static inline void copy(char *to, const char *from, size_t bytes)
+{
+    switch (bytes) {
+    case 4: memcpy(to, from, 4); break;
+    case 8: memcpy(to, from, 8); break;
+    case 12: memcpy(to, from, 12); break;
+    case 24: memcpy(to, from, 24); break;
+    case 72: memcpy(to, from, 72); break;
+    default: memcpy(to, from, bytes);
+    }
+}
+
 /* Between the rows of an array, [begin, end) of the list, and a message that has them one after another. Numbers of a
  * slot lie beside those of the other rows of its slice: `each` bytes of a slot of a slice, in parts of one number. */
 static void carry(const shares *h, const brc_buffer *buffer, char *image, const rows_of *rows, int64_t begin,
@@ -91,10 +104,7 @@ static void carry(const shares *h, const brc_buffer *buffer, char *image, const 
         for (int64_t slot = first; slot < last; ++slot)
             for (int64_t part = 0; part < parts; ++part, at += bytes) {
                 char *const own = image + (slots ? (slot * parts + part) * slice + row % slice : row) * (int64_t)bytes;
-                if (into_message)
-                    memcpy(at, own, bytes);
-                else
-                    memcpy(own, at, bytes);
+                copy(into_message ? at : own, into_message ? own : at, bytes);
             }
     }
 }
@@ -188,7 +198,8 @@ brc_status brc_share_bring_among(brc_buffer *buffer, brc_rows_among *among)
                   all = (slots ? among->slots[among->n] : among->n) * each;
     const int64_t end = among->first + among->n_of[h->mine];
     char *image = NULL;
-    if (among->n == 0) return BRC_OK;
+    if (among->n == 0 || buffer->set == among->number) return BRC_OK;
+    if (2 * (int64_t)among->n > h->rows.n_rows) return brc_share_gather(buffer);
     if (among->room < all) {
         among->room = 0;
         BRC_TRY(brc_memory_resize(context, (void **)&among->image, all, 1, "messages"));
@@ -202,37 +213,28 @@ brc_status brc_share_bring_among(brc_buffer *buffer, brc_rows_among *among)
                              slots ? among->slots_of : among->n_of, among->image);
     if (status == BRC_OK) carry(h, buffer, image, &rows, 0, among->first, among->image, false);
     if (status == BRC_OK) carry(h, buffer, image, &rows, end, among->n, among->image, false);
+    buffer->set = among->number;
     return close_image(buffer, image, status);
 }
 
-brc_status brc_buffer_bring_items(brc_buffer *buffer, int64_t bytes, int32_t n, const int32_t *row)
+brc_status brc_buffer_bring_ranges(brc_buffer *buffer, int64_t bytes, const int64_t *before, const int32_t *place)
 {
     brc_context *context = buffer->device->context;
     const shares *h = buffer->device->shares;
-    int64_t *n_of = NULL, *at = NULL;
-    char *all = NULL, *image = NULL;
-    brc_status status = BRC_OK;
-    if (!h || n == 0) return BRC_OK;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &n_of, h->n_ranks, "messages"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &at, h->n_ranks + 1, "messages"));
-    BRC_TRY_OR(cleanup, brc_memory_allocate(context, (void **)&all, n, (size_t)bytes, "messages"));
-    BRC_TRY_OR(cleanup, open_image(buffer, &image));
-    for (int32_t k = 0; k < n; ++k)
-        n_of[brc_share_rank_of_row(h, row[k])] += 1;
+    char *image = NULL;
+    if (!h || before[h->n_ranks] == 0) return BRC_OK;
+    BRC_LOCAL(context, h->n_ranks, int64_t, n_of, "messages");
+    BRC_LOCAL(context, place ? before[h->n_ranks] * bytes : 0, char, packed, "messages");
     for (int32_t rank = 0; rank < h->n_ranks; ++rank)
-        at[rank + 1] = at[rank] + n_of[rank];
-    int64_t next = at[h->mine];
-    for (int32_t k = 0; k < n; ++k)
-        if (brc_share_rank_of_row(h, row[k]) == h->mine) memcpy(all + next++ * bytes, image + k * bytes, (size_t)bytes);
-    status = brc_ranks_gather_all(context, all + at[h->mine] * bytes, bytes, n_of, all);
-    for (int32_t k = 0; status == BRC_OK && k < n; ++k)
-        memcpy(image + k * bytes, all + at[brc_share_rank_of_row(h, row[k])]++ * bytes, (size_t)bytes);
-    status = close_image(buffer, image, status);
-cleanup:
-    brc_memory_free(n_of);
-    brc_memory_free(at);
-    brc_memory_free(all);
-    return status;
+        n_of[rank] = before[rank + 1] - before[rank];
+    BRC_TRY(open_image(buffer, &image));
+    char *const all = place ? packed : image;
+    for (int64_t k = before[h->mine]; place && k < before[h->mine + 1]; ++k)
+        memcpy(packed + k * bytes, image + place[k] * bytes, (size_t)bytes);
+    const brc_status status = brc_ranks_gather_all(context, all + before[h->mine] * bytes, bytes, n_of, all);
+    for (int64_t k = 0; place && status == BRC_OK && k < before[h->n_ranks]; ++k)
+        memcpy(image + place[k] * bytes, packed + k * bytes, (size_t)bytes);
+    return close_image(buffer, image, status);
 }
 
 /* ---- the whole array ---- */

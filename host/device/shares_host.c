@@ -124,6 +124,7 @@ static void put_near(const brc_buffer *buffer, const char *data)
 /* The parts of this rank, of what all have. */
 static void put_parts(brc_buffer *buffer, const char *data)
 {
+    buffer->set = 0;
     const range own = own_of(buffer);
     const bool near = buffer->of == BRC_OF_ROWS || (buffer->of == BRC_OF_SLOTS && buffer->number > 0);
     if (own.first < own.end) put(buffer, data, own.first, own.end - own.first);

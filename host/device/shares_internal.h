@@ -52,13 +52,14 @@ struct brc_shares {
     int32_t n_inside; /* the longest such ranges, in order */
     brc_inside inside[BRC_MOST_INSIDE];
     brc_messages *messages;
-    int64_t n_launches;
+    int64_t n_launches, n_sets;
     bool ranks_meet;       /* some machine has several ranks, which see one another's memory */
     brc_rows_among *among; /* of the launches now; NULL: none */
 };
 
 /* Rows that launches keep to, of all ranks. */
 struct brc_rows_among {
+    int64_t number; /* of the sets so far */
     int32_t n;
     int32_t *row;             /* [n] ascending */
     char *mark;               /* [n_rows] 0 */
@@ -72,7 +73,6 @@ struct brc_rows_among {
 /* ---- shares_rows.c ---- */
 /* Things of a kind before a slice; of BRC_OF_NOTHING none. */
 int64_t brc_share_before(const struct brc_shares *h, brc_array_of what, int32_t slice);
-int32_t brc_share_rank_of_row(const struct brc_shares *h, int32_t row);
 void brc_shares_free(brc_device *device);
 
 /* ---- shares_bring.c: all ranks alike ---- */
@@ -81,7 +81,8 @@ brc_status brc_share_bring_near(brc_buffer *buffer);
 /* The same in two steps: what is computed between them reads own rows. */
 brc_status brc_share_begin_near(brc_buffer *buffer, brc_flight *flight);
 brc_status brc_share_finish_near(brc_flight *flight);
-/* Rows of a set, to all ranks; where the array is right stays as it was. */
+/* Rows of a set, to all ranks, unless they came since they were written; where the array is right stays as it was. Of
+ * a set of most rows the whole array comes, which then is right everywhere. */
 brc_status brc_share_bring_among(brc_buffer *buffer, brc_rows_among *among);
 /* Marks that others have set at own rows. */
 brc_status brc_share_settle(brc_buffer *buffer);

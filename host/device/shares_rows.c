@@ -20,7 +20,7 @@ int64_t brc_share_before(const shares *h, brc_array_of what, int32_t slice)
     return what == BRC_OF_GROUPS ? row * h->rows.n_groups / h->rows.n_rows : row;
 }
 
-int32_t brc_share_rank_of_row(const shares *h, int32_t row)
+static int32_t rank_of_row(const shares *h, int32_t row)
 {
     const int32_t slice = row / h->rows.slice;
     int32_t rank = (int32_t)((int64_t)slice * h->n_ranks / h->rows.n_slices);
@@ -82,7 +82,7 @@ static brc_status reached(brc_context *context, const shares *h, int32_t of, int
     const int64_t begin = (int64_t)h->slot_start[h->first_slice[of]] * h->rows.slice,
                   end = (int64_t)h->slot_start[h->first_slice[of + 1]] * h->rows.slice;
     for (int64_t k = begin; k < end; ++k) {
-        const int32_t row = h->rows.neighbour[k], owner = brc_share_rank_of_row(h, row);
+        const int32_t row = h->rows.neighbour[k], owner = rank_of_row(h, row);
         if (owner == of || seen[row] == of + 1 || (give && owner != h->mine)) continue;
         seen[row] = of + 1;
         BRC_TRY(add_row(context, &lists[give ? of : owner], row));
@@ -284,17 +284,26 @@ brc_status brc_rows_among_make(brc_device *device, int32_t n, const int32_t *row
     memset(among->n_of, 0, (size_t)h->n_ranks * sizeof *among->n_of);
     memset(among->slots_of, 0, (size_t)h->n_ranks * sizeof *among->slots_of);
     among->n = put_in_order(h, among, n, rows);
-    for (int32_t k = 0; k < among->n; ++k) {
-        const int32_t owner = brc_share_rank_of_row(h, among->row[k]), slice = among->row[k] / h->rows.slice;
+    for (int32_t k = 0, owner = 0; k < among->n; ++k) {
+        const int32_t slice = among->row[k] / h->rows.slice;
+        while (slice >= h->first_slice[owner + 1])
+            ++owner;
         const int64_t n_slots = h->slot_start[slice + 1] - h->slot_start[slice];
         among->n_of[owner] += 1;
         among->slots_of[owner] += n_slots;
         among->slots[k + 1] = among->slots[k] + n_slots;
     }
-    among->first = 0;
-    for (int32_t rank = 0; rank < h->mine; ++rank)
-        among->first += among->n_of[rank];
+    among->first = brc_rows_among_before(among, h->mine);
+    among->number = ++device->shares->n_sets;
     return BRC_OK;
+}
+
+int32_t brc_rows_among_before(const brc_rows_among *among, int32_t rank)
+{
+    int64_t n = 0;
+    for (int32_t k = 0; k < rank; ++k)
+        n += among->n_of[k];
+    return (int32_t)n;
 }
 
 void brc_rows_among_free(brc_rows_among **among)
@@ -317,16 +326,16 @@ brc_rows_among *brc_device_keep_among(brc_device *device, brc_rows_among *among)
     return before;
 }
 
-bool brc_device_has_row(const brc_device *device, int32_t row)
+brc_row_range brc_device_rows_of(const brc_device *device, int32_t rank)
 {
     const shares *h = device->shares;
-    return !h || brc_share_rank_of_row(h, row) == h->mine;
+    if (!h) return (brc_row_range){0, INT32_MAX};
+    return (brc_row_range){h->first_slice[rank] * h->rows.slice, h->first_slice[rank + 1] * h->rows.slice};
 }
 
-bool brc_device_rows_together(const brc_device *device, int32_t i, int32_t j)
+brc_row_range brc_device_rows_here(const brc_device *device)
 {
-    const shares *h = device->shares;
-    return !h || brc_share_rank_of_row(h, i) == brc_share_rank_of_row(h, j);
+    return brc_device_rows_of(device, brc_ranks_mine());
 }
 
 bool brc_device_is_shared(const brc_device *device)

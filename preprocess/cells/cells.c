@@ -362,10 +362,19 @@ cleanup:
     return status;
 }
 
+void brc_cell_run_free_faces(brc_cell_run *run)
+{
+    brc_memory_free(run->neighbour);
+    brc_memory_free(run->area);
+    brc_memory_free(run->centroid);
+    run->neighbour = NULL;
+    run->area = run->centroid = NULL;
+}
+
 void brc_cell_run_free(brc_cell_run *run)
 {
-    void *const block[] = {run->neighbour,     run->area,         run->centroid, run->free_wall,
-                           run->free_geometry, run->free_corners, run->polygon,  run->vertex};
+    void *const block[] = {run->free_wall, run->free_geometry, run->free_corners, run->polygon, run->vertex};
+    brc_cell_run_free_faces(run);
     for (size_t k = 0; k < sizeof block / sizeof *block; ++k)
         brc_memory_free(block[k]);
     memset(run, 0, sizeof *run);

@@ -44,7 +44,8 @@ typedef struct brc_cells {
  * domain: see farthest_corner. n_threads >= 1. Caller frees with brc_cells_free. */
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
                              double spacing, int n_threads, brc_cells *cells);
-/* Free one run, or everything; both accept what is already free. */
+/* Free the shared faces of a run, one run, or everything; all accept what is already free. */
+void brc_cell_run_free_faces(brc_cell_run *run);
 void brc_cell_run_free(brc_cell_run *run);
 void brc_cells_free(brc_cells *cells);
 

@@ -40,18 +40,19 @@ static int64_t run_end(const brc_cells *cells, int64_t r)
     return end < cells->n_elements ? end : cells->n_elements;
 }
 
-/* Copy shared faces of all runs into the domain's (still uncompressed) rows. */
+/* Move shared faces of all runs into the domain's (still uncompressed) rows. */
 static void gather_faces(brc_cells *cells, int n_threads, brc_domain *domain, double *area)
 {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(n_threads)
     for (int64_t r = 0; r < cells->n_runs; ++r) {
-        const brc_cell_run *run = &cells->run[r];
+        brc_cell_run *run = &cells->run[r];
         const int64_t h = domain->row_start[r * BRC_RUN_LENGTH];
         const size_t n = (size_t)run->n_faces;
         if (n == 0) continue;
         memcpy(domain->neighbour + h, run->neighbour, n * sizeof(int32_t));
         memcpy(area + h, run->area, n * sizeof(double));
         memcpy(domain->face_centroid + 3 * h, run->centroid, 3 * n * sizeof(double));
+        brc_cell_run_free_faces(run);
     }
 }
 
@@ -235,6 +236,7 @@ static brc_status build_free_faces(brc_context *context, brc_cells *cells, doubl
         copy_run(cells, r, limit, polygon_start, domain);
         brc_cell_run_free(&cells->run[r]);
     }
+    brc_memory_trim();
 cleanup:
     brc_memory_free(n_kept);
     brc_memory_free(n_polygon);
@@ -268,6 +270,7 @@ brc_status brc_half_edges_build(brc_context *context, brc_cells *cells, double t
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->twin, n, "twins"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->face_centroid, 3 * n, "face centroids"));
     gather_faces(cells, n_threads, domain, area);
+    brc_memory_trim();
     find_twins(n_threads, domain);
     const double mean = mean_area(domain, area), limit = tiny_face_threshold * mean;
     domain->quality.tiny_face_threshold = tiny_face_threshold;

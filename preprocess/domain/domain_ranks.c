@@ -20,7 +20,9 @@ static brc_status append(writer *w, const void *data, int64_t bytes)
     return brc_machine_file_write(w->context, w->file, data, bytes);
 }
 
-/* Into the file; the pointer becomes the block's place. */
+enum { PIECE = 16 << 20 };
+
+/* Into the file, piece by piece, which are then in memory once; the pointer becomes the block's place. */
 static brc_status write_block(void *self, void **block)
 {
     writer *w = self;
@@ -30,7 +32,12 @@ static brc_status write_block(void *self, void **block)
     brc_memory_head(head, bytes);
     BRC_TRY(append(w, head, sizeof head));
     const int64_t place = w->at;
-    BRC_TRY(append(w, *block, bytes));
+    for (int64_t at = 0; at < bytes; at += PIECE) {
+        const int64_t piece = bytes - at < PIECE ? bytes - at : PIECE;
+        char *const data = (char *)*block + at;
+        BRC_TRY(append(w, data, piece));
+        brc_memory_forget(data, piece);
+    }
     *block = (void *)(intptr_t)place;
     return BRC_OK;
 }
@@ -88,11 +95,12 @@ brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *don
     brc_status status = *domain ? write_domain(context, *domain, &file) : BRC_OK;
     BRC_TRY(brc_ranks_agree(context, status));
     *done = brc_machine_memory_map(context, file, &memory) == BRC_OK;
-    if (!*done) {
+    if (!*done)
         brc_log(context, BRC_LOG_WARNING,
                 "ranks of a machine cannot see one another's memory: each builds the domain and keeps it");
-        return BRC_OK;
-    }
+    if (!memory.data && *domain)
+        return BRC_FAIL(context, BRC_NO_MEMORY, "the domain is in a file in memory, which cannot be mapped");
+    if (!memory.data) return BRC_OK;
     status = BRC_ALLOCATE(context, &own, 1, "domain");
     if (status != BRC_OK) {
         brc_machine_memory_free(&memory);

@@ -50,6 +50,21 @@ static void held_bytes_return_to_where_they_were(void **state)
     assert_int_equal(brc_memory_peak_since_mark(), before + 64);
 }
 
+static void whole_pages_of_what_is_forgotten_are_gone(void **state)
+{
+    enum { BYTES = 1 << 22, FROM = 1 << 20, LENGTH = 2 << 20 };
+    char *block;
+    assert_int_equal(BRC_ALLOCATE(*state, &block, BYTES, "bytes"), BRC_OK);
+    memset(block, 1, BYTES);
+    brc_memory_forget(block + FROM, LENGTH);
+    for (int k = 0; k < FROM; ++k) {
+        assert_int_equal(block[k], 1);
+        assert_int_equal(block[FROM + LENGTH + k], 1);
+    }
+    assert_int_equal(block[FROM + LENGTH / 2], 0);
+    brc_memory_free(block);
+}
+
 static void resizing_keeps_the_first_bytes_and_zeroes_the_new(void **state)
 {
     brc_context *context = *state;
@@ -134,6 +149,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(blocks_are_zeroed_and_aligned, begin, end),
         cmocka_unit_test_setup_teardown(held_bytes_return_to_where_they_were, begin, end),
+        cmocka_unit_test_setup_teardown(whole_pages_of_what_is_forgotten_are_gone, begin, end),
         cmocka_unit_test_setup_teardown(resizing_keeps_the_first_bytes_and_zeroes_the_new, begin, end),
         cmocka_unit_test_setup_teardown(what_cannot_be_had_is_refused_with_its_name_and_size, begin, end),
         cmocka_unit_test_setup_teardown(overflow_and_negative_counts_are_refused, begin, end),

@@ -2,6 +2,7 @@
 #include "picture.h"
 #include "../../solver/effects/fracture/fracture.h"
 #include "../frames/deform.h"
+#include "../../base/file.h"
 #include "../../base/memory.h"
 #include <math.h>
 #include <stdio.h>
@@ -155,7 +156,7 @@ brc_status brc_picture_write(brc_context *context, const brc_assembly *assembly,
         .cut = output->has_picture_cut ? &cut : NULL,
         .view = &view,
     };
-    status = brc_picture_draw(context, &picture, path);
+    if (brc_file_writes()) status = brc_picture_draw(context, &picture, path);
 cleanup:
     for (int32_t k = 0; own && k < assembly->n; ++k) {
         brc_memory_free(own[k].whole);

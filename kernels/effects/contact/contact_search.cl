@@ -4,7 +4,7 @@
  * the exposed elements, ascending; slot_of [n + 1]: place of a row in it (of an exposed row; else that of the next
  * one); start [m + 1], used [m]: entries of each; entry: the other row, by ascending id, and n + piece of a striker;
  * pair: number of the pair, seen from its lower id; below 0: -1 - pair, seen from the higher one; with_pairs: those
- * slots of list that have entries at all. */
+ * slots of list that have entries at all. `list` is `listed` where far rows are read, which no bond reaches. */
 
 #define CONTACT_HISTORY 20
 
@@ -134,13 +134,13 @@ KERNEL void contact_kept(int m, OWN(int) list, OWN(int) again, OWN(int) old_slot
     }
 }
 /* The same entries; owned, any as contact_fill. */
-KERNEL void contact_keep(int m, OWN(int) list, OWN(int) again, GATHER(int) id, OWN(int) old_slot_of,
+KERNEL void contact_keep(int m, OWN(int) listed, OWN(int) again, GATHER(int) id, OWN(int) old_slot_of,
                          GATHER(int) old_start, GATHER(int) old_used, GATHER(int) old_entry, OWN(int) start,
                          PUT(int) entry, PUT(int) used, PUT(int) owned, PUT(int) any)
 {
     FOR_EACH_ITEM(k, m) {
         if (!again[k]) {
-            const int e = list[k], old = old_slot_of[e], from = old_start[old], n = old_used[old];
+            const int e = listed[k], old = old_slot_of[e], from = old_start[old], n = old_used[old];
             int own_pairs = 0;
             for (int at = 0; at < n; ++at) {
                 const int j = old_entry[from + at];
@@ -175,11 +175,11 @@ KERNEL void contact_spread(int n_items, int n, int to, OWN(int) todo, OWN(int) e
 
 /* How many others are near the elements in the slots redo [n_redo], bonds not asked. */
 KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int n_pieces, GATHER(state) piece,
-                          GATHER(int) piece_kind, OWN(int) redo, OWN(int) list, GATHER(state) built, GATHER(int) first,
-                          GATHER(int) last, GATHER(int) row, PUT(int) count)
+                          GATHER(int) piece_kind, OWN(int) redo, OWN(int) listed, GATHER(state) built,
+                          GATHER(int) first, GATHER(int) last, GATHER(int) row, PUT(int) count)
 {
     FOR_EACH_ITEM(item, n_redo) {
-        const int k = redo[item], e = list[k];
+        const int k = redo[item], e = listed[k];
         const contact_cell home = contact_cell_of(built, e, per_edge);
         int near = 0;
         for (int step = 0; step < 27; ++step) {
@@ -231,16 +231,16 @@ LAW contact_body contact_body_of(GATHER(state) corner, GATHER(state) plane, GATH
  * [m]: whether there are entries. Both sides of a pair ask contact_parted alike, from the lower id. clear [n]:
  * contact_motion.cl. */
 KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces,
-                         GATHER(state) piece, GATHER(int) piece_kind, OWN(int) redo, OWN(int) list, GATHER(state) built,
-                         GATHER(state) posed, GATHER(int) rigid, GATHER(state) corner, GATHER(state) plane,
-                         GATHER(int) loop_start, GATHER(int) loop, GATHER(state) radius, GATHER(int) corner_start,
-                         GATHER(int) face_start, GATHER(int) first, GATHER(int) last, GATHER(int) row, GATHER(int) id,
-                         GATHER(int) body, GATHER(int) row_start, GATHER(int) neighbour, OWN(int) original,
-                         OWN(int) start, UPDATE(int) entry, PUT(int) used, PUT(int) owned, PUT(int) any,
-                         PUT(state) clear)
+                         GATHER(state) piece, GATHER(int) piece_kind, OWN(int) redo, OWN(int) listed,
+                         GATHER(state) built, GATHER(state) posed, GATHER(int) rigid, GATHER(state) corner,
+                         GATHER(state) plane, GATHER(int) loop_start, GATHER(int) loop, GATHER(state) radius,
+                         GATHER(int) corner_start, GATHER(int) face_start, GATHER(int) first, GATHER(int) last,
+                         GATHER(int) row, GATHER(int) id, GATHER(int) body, GATHER(int) row_start,
+                         GATHER(int) neighbour, OWN(int) original, OWN(int) start, UPDATE(int) entry, PUT(int) used,
+                         PUT(int) owned, PUT(int) any, PUT(state) clear)
 {
     FOR_EACH_ITEM(item, n_redo) {
-        const int k = redo[item], e = list[k], begin = start[k];
+        const int k = redo[item], e = listed[k], begin = start[k];
         const contact_cell home = contact_cell_of(built, e, per_edge);
         int n = 0, own_pairs = 0;
         state free_way = STATE(1e30);
@@ -329,11 +329,13 @@ KERNEL void contact_own_pairs(int m, OWN(int) list, OWN(int) start, OWN(int) use
         }
     }
 }
-KERNEL void contact_other_pairs(int m, OWN(int) list, GATHER(int) slot_of, GATHER(int) start, GATHER(int) used,
-                                GATHER(int) entry, GATHER(int) id, SCATTER(int) pair)
+/* with_pairs [n_with_pairs]: slots that have entries. */
+KERNEL void contact_other_pairs(int n_with_pairs, OWN(int) with_pairs, OWN(int) list, GATHER(int) slot_of,
+                                GATHER(int) start, GATHER(int) used, GATHER(int) entry, GATHER(int) id,
+                                SCATTER(int) pair)
 {
-    FOR_EACH_ITEM(k, m) {
-        const int e = list[k];
+    FOR_EACH_ITEM(item, n_with_pairs) {
+        const int k = with_pairs[item], e = list[k];
         for (int at = start[k]; at < start[k] + used[k]; ++at) {
             const int j = entry[at];
             if (id[j] < id[e]) {
@@ -356,14 +358,15 @@ KERNEL void contact_pack(int n_pairs, int stride, OWN(int) touch, OWN(int) at, O
 }
 
 /* What pairs remember goes over from the lists before, and with a stride above 0 the result of the last evaluation too
- * (contact.cl), as contact_pack left it; new pairs have touched nothing. history [n_pairs][CONTACT_HISTORY], result
- * [n_pairs][stride]. */
-KERNEL void contact_carry(int n_pairs, int had, int stride, OWN(int) ends, GATHER(int) old_slot_of,
-                          GATHER(int) old_start, GATHER(int) old_used, GATHER(int) old_entry, GATHER(int) old_pair,
-                          GATHER(state) old_history, GATHER(int) packed_at, GATHER(state) packed, PUT(state) history,
-                          UPDATE(int) touch, PUT(state) result)
+ * (contact.cl), as contact_pack left it; new pairs have touched nothing. whole: all pairs, else those of todo. history
+ * [n_pairs][CONTACT_HISTORY], result [n_pairs][stride]. */
+KERNEL void contact_carry(int n_items, int whole, int had, int stride, OWN(int) todo, OWN(int) ends,
+                          GATHER(int) old_slot_of, GATHER(int) old_start, GATHER(int) old_used, GATHER(int) old_entry,
+                          GATHER(int) old_pair, GATHER(state) old_history, GATHER(int) packed_at, GATHER(state) packed,
+                          PUT(state) history, UPDATE(int) touch, PUT(state) result)
 {
-    FOR_EACH_ITEM(p, n_pairs) {
+    FOR_EACH_ITEM(item, n_items) {
+        const int p = whole ? item : todo[item];
         const int before = had ? contact_pair_of(ends[2 * (brc_size)p], ends[2 * (brc_size)p + 1], old_slot_of,
                                                  old_start, old_used, old_entry, old_pair)
                                : -1;

@@ -189,20 +189,23 @@ brc_status brc_contact_pairs(brc_simulation *s, double dt, bool whole, bool brok
                          {"broke", BRC_INT(broke ? 1 : 0)},
                          {0}};
     if (spheres) given[4] = (brc_given){0};
-    if ((whole ? l->n_pairs : c->n_todo) == 0) return BRC_OK;
-    brc_rows_among *const outer = brc_device_keep_among(s->device, items.among);
-    const brc_status status = brc_pass_run_on(spheres ? c->pass.spheres : c->pass.cells, items.n, NULL, NULL, given);
-    brc_device_keep_among(s->device, outer);
-    return status;
+    if (whole ? l->n_pairs > 0 : c->n_todo > 0) {
+        brc_rows_among *const outer = brc_device_keep_among(s->device, items.among);
+        const brc_status status =
+            brc_pass_run_on(spheres ? c->pass.spheres : c->pass.cells, items.n, NULL, NULL, given);
+        brc_device_keep_among(s->device, outer);
+        BRC_TRY(status);
+    }
+    return brc_contact_bring_sent(s);
 }
 
 static brc_status gather_turning(brc_simulation *s, double sign, double kick, int book, brc_buffer *force,
                                  brc_buffer *torque)
 {
-    brc_contact_state *c = s->contact;
-    const brc_contact_list *l = &c->now;
-    return BRC_RUN(c->pass.gather_turning, l->n_with_pairs, {"sign", BRC_STATE(sign)}, {"kick", BRC_STATE(kick)},
-                   {"book", BRC_INT(book)}, {"force", BRC_BUF(force)}, {"torque", BRC_BUF(torque)});
+    return brc_contact_run_gather(s, s->contact->pass.gather_turning, NULL,
+                                  BRC_GIVEN({"sign", BRC_STATE(sign)}, {"kick", BRC_STATE(kick)},
+                                            {"book", BRC_INT(book)}, {"force", BRC_BUF(force)},
+                                            {"torque", BRC_BUF(torque)}));
 }
 
 /* Forces and torques of the elements on strikers. */
@@ -234,18 +237,16 @@ static double step_of(const brc_simulation *s, const brc_force_request *r)
 brc_status brc_contact_moments(brc_simulation *s, const brc_force_request *r)
 {
     brc_contact_state *c = s->contact;
-    const brc_contact_list *l = &c->now;
     const int book = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
-    return BRC_RUN(c->pass.gather_moments, l->n_with_pairs, {"book", BRC_INT(book)});
+    return brc_contact_run_gather(s, c->pass.gather_moments, NULL, BRC_GIVEN({"book", BRC_INT(book)}));
 }
 
 brc_status brc_contact_forces(brc_simulation *s, const brc_force_request *r)
 {
     brc_contact_state *c = s->contact;
-    const brc_contact_list *l = &c->now;
     if (c->affine)
-        BRC_TRY(brc_pass_run_on(c->pass.gather_forces, l->n_with_pairs, r, NULL, NULL));
+        BRC_TRY(brc_contact_run_gather(s, c->pass.gather_forces, r, NULL));
     else {
         BRC_TRY(brc_contact_pairs(s, step_of(s, r), all_pairs(r), r->rings != NULL));
         BRC_TRY(gather_turning(s, 1, 0, r->book == BRC_BOOK_WORK, r->force, r->torque));

@@ -213,6 +213,7 @@ void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out)
     static const brc_value_row of_before[] = {{"old_slot_of", OLD(slot_of)}, {"old_start", OLD(start)},
                                               {"old_used", OLD(used)},       {"old_entry", OLD(entry)},
                                               {"old_pair", OLD(pair)},       {"old_history", OLD(history)}};
+    static const brc_value_row of_now[] = {{"listed", OLD(list)}};
     const brc_contact_state *c = s->contact;
     out->run = brc_scope_of_run(s);
     out->scene = (brc_scope){.owner = "scene", .base = s->scene, BRC_VALUES(of_scene), .outer = &out->run};
@@ -229,6 +230,7 @@ void brc_contact_scopes_make(const brc_simulation *s, brc_contact_scopes *out)
                            .base = &c->now,
                            .tables = {&brc_contact_slot_fields, &brc_contact_listed_fields, &brc_contact_entry_fields,
                                       &brc_contact_pair_fields},
+                           BRC_VALUES(of_now),
                            .outer = &out->contact};
     out->before =
         (brc_scope){.owner = "list of pairs before", .base = &c->before, BRC_VALUES(of_before), .outer = &out->now};

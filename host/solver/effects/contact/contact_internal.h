@@ -15,7 +15,7 @@ enum {
 
 /* Which pairs there are (contact_search.cl); kept twice, so that pairs find what they remember. */
 typedef struct brc_contact_list {
-    int32_t n_listed, n_pairs, n_with_pairs; /* n_with_pairs: listed elements that have pairs */
+    int32_t n_listed, n_pairs, n_with_pairs; /* n_with_pairs: listed elements that have pairs, of this rank's */
     int64_t entry_room, pair_room;
     brc_buffer *list, *slot_of, *start, *used, *entry, *pair, *with_pairs, *ends, *history;
 } brc_contact_list;
@@ -121,11 +121,21 @@ typedef struct brc_contact_items {
 brc_contact_items brc_contact_items_of(const brc_simulation *s, bool whole);
 /* The listed elements, c->listed: what the search for pairs keeps to. */
 brc_status brc_contact_share_list(brc_simulation *s);
+/* Of n ascending slots in a list those of this rank's elements; *n: how many. */
+brc_status brc_contact_keep_slots(brc_simulation *s, brc_buffer *list, int64_t *n);
+/* What each rank found for its slots: how many are near; entries, how many, in how many the id is the lower one. */
+brc_status brc_contact_bring_counts(brc_simulation *s);
+brc_status brc_contact_bring_entries(brc_simulation *s);
+/* A pass over c->now.with_pairs. request: or NULL. */
+brc_status brc_contact_run_gather(const brc_simulation *s, const brc_pass *pass, const brc_force_request *request,
+                                  const brc_given *given);
 /* After the list of pairs is made; after c->todo is. */
 brc_status brc_contact_share_pairs(brc_simulation *s);
 brc_status brc_contact_share_todo(brc_simulation *s);
 /* Before the host reads touch, result or history of all pairs. */
 brc_status brc_contact_bring_pairs(brc_simulation *s);
+/* Results of touching pairs that other ranks ask for, after pairs are evaluated. */
+brc_status brc_contact_bring_sent(brc_simulation *s);
 void brc_contact_share_free(brc_contact_state *contact);
 
 /* ---- contact_shapes.c ---- */

@@ -49,7 +49,7 @@ static brc_status make_passes(brc_simulation *s)
                                         BRC_PASS(&c->pass.own_pairs, "contact_own_pairs", NULL),
                                         BRC_PASS(&c->pass.other_pairs, "contact_other_pairs", NULL),
                                         BRC_PASS(&c->pass.pack, "contact_pack", "stride at"),
-                                        BRC_PASS(&c->pass.carry, "contact_carry", "had stride"),
+                                        BRC_PASS(&c->pass.carry, "contact_carry", "whole had stride todo"),
                                         BRC_PASS(&c->pass.pieces, "contact_pieces", NULL),
                                         BRC_PASS(&c->pass.pieces_moved, "contact_pieces_moved", "first")};
     return BRC_PASSES_MAKE(s, &in.before, of_lists);
@@ -253,7 +253,9 @@ static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64
 {
     if (l->entry && n <= l->entry_room) return BRC_OK;
     l->entry_room = brc_contact_room(n);
-    return renew(s, &brc_contact_entry_fields, l->entry_room, l);
+    BRC_TRY(renew(s, &brc_contact_entry_fields, l->entry_room, l));
+    brc_buffer_is_of(l->entry, BRC_OF_LOOSE, 4, 4);
+    return BRC_OK;
 }
 /* Numbers of a result. */
 static int32_t stride_of(const brc_contact_state *c)
@@ -354,15 +356,20 @@ static brc_status find_entries(brc_simulation *s, bool whole)
     const double per_edge = 1 / (1.000001 * (2 * most.element[0] + c->skin));
     BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
     BRC_TRY(find_redo(s, whole, per_edge, mask, sorted, &n_redo));
-    if (n_redo > 0)
-        BRC_TRY(BRC_RUN(c->pass.count, n_redo, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
+    int64_t n_own = n_redo;
+    BRC_TRY(brc_contact_keep_slots(s, c->redo, &n_own));
+    if (n_redo > 0) {
+        BRC_TRY(BRC_RUN(c->pass.count, n_own, {"per_edge", BRC_STATE(per_edge)}, {"mask", BRC_INT(mask)},
                         {"row", BRC_BUF(c->row[sorted])}));
+        BRC_TRY(brc_contact_bring_counts(s));
+    }
     BRC_TRY(scan(s, c->count, m, l->start, &near));
     BRC_TRY(room_for_entries(s, l, near));
     BRC_TRY(BRC_RUN(c->pass.keep, m, {"any", BRC_BUF(c->count)}));
     if (n_redo == 0) return BRC_OK;
-    return BRC_RUN(c->pass.fill, n_redo, {"rows", BRC_INT(n)}, {"per_edge", BRC_STATE(per_edge)},
-                   {"mask", BRC_INT(mask)}, {"row", BRC_BUF(c->row[sorted])}, {"any", BRC_BUF(c->count)});
+    BRC_TRY(BRC_RUN(c->pass.fill, n_own, {"rows", BRC_INT(n)}, {"per_edge", BRC_STATE(per_edge)},
+                    {"mask", BRC_INT(mask)}, {"row", BRC_BUF(c->row[sorted])}, {"any", BRC_BUF(c->count)}));
+    return brc_contact_bring_entries(s);
 }
 
 static brc_status number_pairs(brc_simulation *s, bool carried)
@@ -376,17 +383,19 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
     BRC_TRY(room_for_pairs(s, l, n_pairs));
     l->n_pairs = (int32_t)n_pairs;
     BRC_TRY(brc_pass_run(c->pass.own_pairs, m));
-    BRC_TRY(brc_pass_run(c->pass.other_pairs, m));
     if (n_pairs == 0) return BRC_OK;
     int64_t n_with_pairs;
     BRC_TRY(scan(s, c->count, m, c->pair_start, &n_with_pairs));
     BRC_TRY(BRC_RUN(c->pass.with_pairs, m, {"any", BRC_BUF(c->count)}, {"at", BRC_BUF(c->pair_start)},
                     {"with_pairs", BRC_BUF(l->with_pairs)}));
+    BRC_TRY(brc_contact_keep_slots(s, l->with_pairs, &n_with_pairs));
     l->n_with_pairs = (int32_t)n_with_pairs;
-    const brc_contact_list *old = &c->before;
-    const bool had = old->n_pairs > 0;
-    return BRC_RUN(c->pass.carry, n_pairs, {"had", BRC_INT(had ? 1 : 0)},
-                   {"stride", BRC_INT(carried ? stride_of(c) : 0)});
+    BRC_TRY(brc_pass_run(c->pass.other_pairs, n_with_pairs));
+    BRC_TRY(brc_contact_share_pairs(s));
+    const brc_contact_items own = brc_contact_items_of(s, true);
+    if (own.n < n_pairs) BRC_TRY(brc_buffer_fill_zero(c->touch));
+    return BRC_RUN(c->pass.carry, own.n, {"whole", BRC_INT(own.whole ? 1 : 0)}, {"todo", BRC_BUF(own.todo)},
+                   {"had", BRC_INT(c->before.n_pairs > 0 ? 1 : 0)}, {"stride", BRC_INT(carried ? stride_of(c) : 0)});
 }
 
 static brc_status find_pairs(brc_simulation *s, bool whole, bool carried)
@@ -411,8 +420,7 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     brc_rows_among *const outer = brc_device_keep_among(s->device, c->listed);
     const brc_status status = find_pairs(s, whole, carried);
     brc_device_keep_among(s->device, outer);
-    BRC_TRY(status);
-    return brc_contact_share_pairs(s);
+    return status;
 }
 
 brc_status brc_contact_list_again(brc_simulation *s)
