@@ -42,6 +42,8 @@
 #include "effects/fracture/fracture.cl"
 #include "models/cbm/cbm_breaks.cl"
 #include "effects/fracture/cells.cl"
+#include "models/dlsm/dlsm_elements.cl"
+#include "models/dlsm/dlsm_held.cl"
 #include "core/scan.cl"
 #include "core/rings.cl"
 #include "models/dlsm/rims.cl"

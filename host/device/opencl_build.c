@@ -39,6 +39,8 @@ static const char *exact_options(brc_device *device, cl_device_id id)
 
 /* Characters of BRECCIA_OPENCL_OPTIONS. */
 enum { MOST_MORE = 200 };
+/* Characters of the list of a device's extensions. */
+enum { MOST_EXTENSIONS = 4096 };
 
 /* Where what the compiler says of every program is added (docs/notebook/devices.md); NULL: nowhere. */
 static const char *log_path(void)
@@ -47,12 +49,20 @@ static const char *log_path(void)
     return path && path[0] ? path : NULL;
 }
 
-static void add_to_log(brc_device *device, const char *options, const char *log)
+static void extensions_of(cl_device_id id, char out[MOST_EXTENSIONS])
+{
+    memset(out, 0, MOST_EXTENSIONS);
+    if (clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, MOST_EXTENSIONS - 1, out, NULL) != CL_SUCCESS) out[0] = '\0';
+}
+
+static void add_to_log(brc_device *device, cl_device_id id, const char *options, const char *log)
 {
     FILE *const file = fopen(log_path(), "a");
     bool written = file != NULL;
     if (file) {
-        fprintf(file, "options: %s\n%s\n", options, log ? log : "");
+        char extensions[MOST_EXTENSIONS];
+        extensions_of(id, extensions);
+        fprintf(file, "extensions: %s\noptions: %s\n%s\n", extensions, options, log ? log : "");
         written = fclose(file) == 0;
     }
     if (!written)
@@ -63,9 +73,9 @@ static void add_to_log(brc_device *device, const char *options, const char *log)
 /* NVIDIA's compiler tells registers and spills of each kernel in its log where it is asked to. */
 static const char *verbose_option(cl_device_id id)
 {
-    char extensions[4096] = "";
+    char extensions[MOST_EXTENSIONS];
     if (!log_path()) return "";
-    if (clGetDeviceInfo(id, CL_DEVICE_EXTENSIONS, sizeof extensions - 1, extensions, NULL) != CL_SUCCESS) return "";
+    extensions_of(id, extensions);
     return strstr(extensions, "cl_nv_compiler_options") ? " -cl-nv-verbose" : "";
 }
 
@@ -153,7 +163,7 @@ static brc_status compile(brc_device *device, cl_context context, cl_device_id i
     code = clBuildProgram(*out, 1, &id, options, NULL, NULL);
     if (code != CL_SUCCESS || log_path() || brc_log_get_level(device->context) >= BRC_LOG_DEBUG)
         log = build_log(device, *out, id);
-    if (log_path()) add_to_log(device, options, log);
+    if (log_path()) add_to_log(device, id, options, log);
     if (code != CL_SUCCESS)
         status = BRC_FAIL(device->context, BRC_DEVICE_FAILED,
                           "device %s, %s: the kernels%s%s do not compile: %s\noptions: %s\ncompiler log:\n%s", text,

@@ -22,7 +22,7 @@ OPTIONS = "-O0 -D restrict= -D always_inline=unused"
 # Its device has 32 KB of local memory, and it counts that of kernels whose names begin alike together.
 GROUP = "64"
 # Work-items store the same value in one place (STORE_SAME), while others read it: both readings lead to the same.
-EQUAL_VALUES = {"ring_spread", "contact_spread"}
+EQUAL_VALUES = {"ring_spread", "contact_spread", "beam_soft_begin"}
 
 SCENE = """version: 1
 title: a body for oclgrind
@@ -43,6 +43,15 @@ BY_BOND = "fracture: {criterion: bond-normal}\n"
 CONTACT = "interactions: {contact: {friction: 0.3, restitution: 0.7}}\n"
 BALL = ("strikers: {ball: {shape: {sphere: {radius: 0.25 m, centre: [0.5 m, 0.45 m, 1.24 m]}}, facets: 24, material: stone, "
         "motion: {free: {velocity: [0, 0, -1 m/s]}}}}\n")
+SOFT = ", strength: {{tension: 1e-4 Pa, fracture_energy: {energy}}}"
+PRINCIPAL = "fracture: {criterion: virial-principal}\n"
+SHELLS = "fracture: {criterion: {drucker-prager: {cohesion: 1e-4 Pa, friction: 30 deg, level: 2}}}\n"
+APART = "loads: [face_displacement: {set: x-, x: 0}, face_displacement: {set: x+, x: 1e-3 m}]"
+ENDS_APART = "loads: [element_displacement: {set: left, x: 0}, element_displacement: {set: right, x: 1e-3 m}]"
+
+
+def static(preconditioner, loads):
+    return f"solver: {{static: {{finite_strain: false, tolerance: 1e-2, preconditioner: {preconditioner}}}}}, {loads}"
 
 
 def steps(n=2, step="1 ms", more=""):
@@ -51,18 +60,38 @@ def steps(n=2, step="1 ms", more=""):
 
 # Case: what fills the scene, and kernels that must have run.
 CASES = {
-    "dlsm": ({"model": "dlsm", "fill": CELLS}, {"dlsm_gradient", "dlsm_stress", "dlsm_flux_pass", "dlsm_force", "dlsm_energy", "advance"}),
+    "faces": ({"model": "dlsm", "fill": CELLS, "stage": steps(more=PULLED), "effects": "gravity: [0, 0, -1 m/s^2]\n"},
+              {"dlsm_gradient", "dlsm_flux_pass", "dlsm_gradient_held", "dlsm_stress_held", "dlsm_force_held", "gravity"}),
     "published": ({"model": "dlsm-published", "fill": CELLS}, {"published_strain_pass", "published_force_pass", "advance_rotation"}),
     "cbm": ({"model": "cbm", "fill": SPHERES}, {"cbm_force_pass"}),
     "fracture": ({"model": "dlsm", "fill": CELLS, "strength": WEAK, "stage": steps(step="10 ms"), "effects": BY_BOND + CONTACT},
                  {"cells_check", "cells_break", "ring_spread", "scan_sums", "rim_stress", "contact_cells"}),
+    "statics": ({"model": "dlsm", "fill": CELLS, "stage": static("blocks", APART)}, {"block_precondition", "dlsm_flux_linear"}),
 }
 MORE = {
-    "faces": ({"model": "dlsm", "fill": CELLS, "stage": steps(more=PULLED), "effects": "gravity: [0, 0, -1 m/s^2]\n"}, {"held_gradient_pass", "gravity"}),
+    "dlsm": ({"model": "dlsm", "fill": CELLS}, {"dlsm_gradient", "dlsm_stress", "dlsm_flux_pass", "dlsm_force", "dlsm_energy", "advance"}),
     "materials": ({"model": "dlsm", "fill": CELLS, "other": ", clay: {density: 2 kg/m^3, E: 2 Pa, nu: 0.3}",
                    "regions": ", regions: [{where: {half_space: {point: [0.5 m, 0, 0], normal: [1, 0, 0]}}, material: clay}]"}, {"dlsm_flux_pass"}),
     "published-fracture": ({"model": "dlsm-published", "fill": CELLS, "strength": ", strength: {tension: 1e-5 Pa}", "stage": steps(more=ENDS_PULLED),
                             "effects": BY_BOND + ENDS}, {"published_breaking_force", "published_check"}),
+    "softening": ({"model": "dlsm", "fill": CELLS, "strength": SOFT.format(energy="1e-6 J/m^2"), "stage": steps(3, "10 ms", PULLED),
+                   "effects": "fracture: {}\n"},
+                  {"soft_check", "soft_begin", "soft_move", "soft_flux", "soft_book"}),
+    "criteria": ({"model": "dlsm", "fill": CELLS, "strength": WEAK, "stage": steps(step="10 ms"), "effects": SHELLS},
+                 {"fracture_stress_second", "cells_record"}),
+    "closure": ({"model": "dlsm", "fill": CELLS, "strength": WEAK, "stage": steps(3, "10 ms"), "effects": BY_BOND},
+                {"closed_follow", "closed_press", "closed_energy"}),
+    "beams-break": ({"model": "cbm", "fill": SPHERES, "strength": WEAK, "stage": steps(3, "1 ms", ENDS_PULLED), "effects": PRINCIPAL + ENDS},
+                    {"fracture_check", "fracture_break", "closure_begin", "closure_move", "closure_force"}),
+    "beams-soften": ({"model": "cbm", "fill": SPHERES, "strength": SOFT.format(energy="1e-6 J/m^2"), "stage": steps(3, "1 ms", ENDS_PULLED),
+                      "effects": PRINCIPAL + ENDS}, {"beam_soft_begin", "beam_soft_move", "beam_soft_force"}),
+    "statics-coarse": ({"model": "dlsm", "fill": CELLS, "stage": static("multigrid", APART)}, {"multigrid_step"}),
+    "statics-beams": ({"model": "cbm", "fill": SPHERES, "stage": static("blocks", ENDS_APART), "effects": ENDS}, {"block6_precondition", "impose_zero"}),
+    "drags": ({"model": "dlsm", "fill": CELLS, "stage": "solver: {dynamic: {steps: 2, time_step: 1 ms, mass_damping: 1 1/s}}, " + PULLED},
+              {"damp_mass"}),
+    "loads": ({"model": "cbm", "fill": SPHERES, "effects": ENDS, "stage": "solver: {dynamic: {steps: 2, time_step: 1 ms, integrator: tchamwa-wielgosz}}, "
+               "loads: [element_displacement: {set: left, x: 0}, element_rotation: {set: right, x: 1 mrad}, element_force: {set: right, y: 1e-3 N}]"},
+              {"impose_turn", "turn_book", "push_elements", "advance_tchamwa", "numerical_close"}),
     "ball": ({"model": "dlsm", "fill": CELLS, "stage": steps(3, "5 ms"), "effects": CONTACT + BALL}, {"striker_advance", "contact_striker_parts"}),
 }
 

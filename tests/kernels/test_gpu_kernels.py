@@ -12,6 +12,7 @@ import gpu_kernels
 # least 25 % of the warps in double (128 registers) and 37 % in mixed (80).
 BUDGET = {
     "dlsm_gradient": (64, 48), "dlsm_stress": (96, 72), "dlsm_flux_pass": (128, 80), "dlsm_flux_linear": (128, 80), "dlsm_force": (80, 56), "advance": (32, 32),
+    "dlsm_gradient_held": (80, 48), "dlsm_stress_held": (128, 80), "dlsm_force_held": (96, 56), "cells_force_held": (128, 80),
     "published_strain_pass": (80, 64), "published_force_pass": (128, 80), "advance_rotation": (64, 64),
     "cbm_force_pass": (128, 80), "kinetic_energy": (32, 32), "guard_probe": (40, 40), "vector_sum": (32, 32),
 }

@@ -105,7 +105,8 @@ void brc_set_beam(brc_simulation *s, double axial, double bend, double twist)
     s->core->constant.bend = bend;
     s->core->constant.twist = twist;
 }
-void brc_set_face_loads(brc_simulation *s, bool any)
+brc_status brc_set_face_loads(brc_simulation *s, bool any)
 {
     s->core->face_loads = any;
+    return any && s->core->held_gradient ? brc_buffer_fill_zero(s->core->held_gradient) : BRC_OK;
 }

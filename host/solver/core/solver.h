@@ -126,7 +126,7 @@ brc_scope brc_scope_of_stresses(const brc_simulation *s, const brc_scope *outer)
 /* Numbers that kernels ask for by name: stiffness of beams of one material [N], [N m^2]; whether some face is held or
  * bears a traction in this stage. */
 void brc_set_beam(brc_simulation *s, double axial, double bend, double twist);
-void brc_set_face_loads(brc_simulation *s, bool any);
+brc_status brc_set_face_loads(brc_simulation *s, bool any); /* those of the stage before have left no trace */
 /* Room that tables ask for: exposed elements and cells of their grid; polyhedra of rigid bodies. */
 void brc_want_exposed(brc_simulation *s, int64_t exposed, int64_t buckets);
 void brc_want_pieces(brc_simulation *s, const brc_convex *pieces);

@@ -331,8 +331,9 @@ ROUTINE coeff beam_lay(UPDATE(coeff) crack, brc_size entry, int e, int j, int sl
 LAW int beam_looks(OWN(int) neighbour, OWN(int) lead, OWN(int) open, GATHER(int) touched, int e, brc_size entry,
                    int dies)
 {
-    if (open[entry] != BEAM_WHOLE || neighbour[entry] == e) return 0;
-    return lead[entry] ? dies || touched[e] : !dies && touched[e] && !touched[neighbour[entry]];
+    if (neighbour[entry] == e) return 0;
+    const int looks = lead[entry] ? dies || touched[e] : !dies && touched[e] && !touched[neighbour[entry]];
+    return looks && open[entry] == BEAM_WHOLE; /* in this order: the side that looks writes both */
 }
 
 /* After the elements chose: chosen beams open, as far as they can; and whole beams of elements with open ones, at their

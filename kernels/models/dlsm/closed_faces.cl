@@ -117,9 +117,8 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
             int soonest = CLOSED_NEVER;
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
                 const brc_size entry = CLOSED_ENTRY;
-                if (!CLOSED_HOLDS(entry)) continue;
                 const int j = CLOSED_OTHER(entry);
-                if (!(e < j)) continue;
+                if (!(e < j) || !CLOSED_HOLDS(entry)) continue; /* the lower row writes what the upper would read */
                 const closed_face f =
                     closed_find(place, offset, inv_shape, displacement, gradient, overlap, e, j, entry);
                 const int pressed = f.along < 0, was = CLOSED_IS(entry) == CLOSED_PRESSED;

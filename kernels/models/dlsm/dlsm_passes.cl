@@ -5,16 +5,7 @@ KERNEL void PASS(dlsm_gradient)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbo
                                 GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
 {
     FOR_EACH_ITEM(item, n_items) {
-        const members who = PASS_MEMBERS(item, row_start);
-        members_states_later(who, displacement, 3, ahead);
-        const state_vec3 u = state_gather3(displacement, who.own);
-        lane_mat3 a = lane_mat3_zero();
-        dlsm_row next = dlsm_first_row(who, neighbour, area, area, 0);
-        for (int slot = who.begin; slot < who.end; ++slot) {
-            const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, area, 0);
-            a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, row.j), u), row.area);
-        }
-        members_store9(who, gradient, lane_mat3_mul_sym(a, members_block6(who, inv_shape)));
+        dlsm_gradient_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, displacement, inv_shape, gradient);
     }
 }
 
@@ -25,12 +16,8 @@ KERNEL void PASS(dlsm_stress)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour
                               OWN(coeff) material, int finite, PUT(coeff) stress)
 {
     FOR_EACH_ITEM(item, n_items) {
-        const members who = PASS_MEMBERS(item, row_start);
-        members_later(who, gradient, 9, ahead);
-        const lane_mat3 g = dlsm_deformation_of(who, neighbour, area, offset, gradient, inv_volume, boundary,
-                                                held_gradient, face_loads);
-        const lane lambda = MEMBERS_MATERIAL(0, lambda_one), mu = MEMBERS_MATERIAL(1, mu_one);
-        members_store9(who, stress, finite ? dlsm_first_piola(g, lambda, mu, 1) : dlsm_first_piola(g, lambda, mu, 0));
+        dlsm_stress_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, offset, gradient, inv_volume, boundary,
+                       held_gradient, face_loads, lambda_one, mu_one, material, finite, stress);
     }
 }
 
@@ -60,17 +47,8 @@ KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour,
                              coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, PUT(state) force)
 {
     FOR_EACH_ITEM(item, n_items) {
-        const members who = PASS_MEMBERS(item, row_start);
-        members_states_later(who, displacement, 3, ahead), members_later(who, flux, 9, ahead);
-        const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
-        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-        dlsm_row next = dlsm_first_row(who, neighbour, area, ratio, DLSM_RATIO);
-        for (int slot = who.begin; slot < who.end; ++slot) {
-            const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, ratio, DLSM_RATIO);
-            const dlsm_pull b = dlsm_pull_at(row, own, displacement, flux, bond_part, one_plus_tau, modulus);
-            f = lane_vec3_add(f, b.force);
-        }
-        members_store3(who, force, f);
+        dlsm_force_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, ratio, displacement, flux, bond_part,
+                      k_one, one_plus_tau, modulus, force);
     }
 }
 
@@ -82,31 +60,8 @@ KERNEL void PASS(cells_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour
                               OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
 {
     FOR_EACH_ITEM(item, n_items) {
-        const members who = PASS_MEMBERS(item, row_start);
-        members_states_later(who, displacement, 3, ahead), members_later(who, flux, 9, ahead);
-        const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
-        const cell_side side =
-            cell_side_of(lane_gather9(gradient, who.own), lane_gather9(stress, who.own), members_number(who, plane));
-        members_records_ahead9(who, gradient);
-        members_records_ahead9(who, stress);
-        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-        lane least = LANE_ZERO + CELLS_NEVER;
-        dlsm_row next = dlsm_first_row(who, neighbour, area, ratio, DLSM_RATIO);
-        for (int slot = who.begin; slot < who.end; ++slot) {
-            const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, ratio, DLSM_RATIO);
-            const dlsm_pull b = dlsm_pull_at(row, own, displacement, flux, bond_part, one_plus_tau, modulus);
-            members_ahead1(who, limit, slot);
-            f = lane_vec3_add(f, b.force);
-            least = lane_min(least,
-                             cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
-        }
-        members_store3(who, force, f);
-        if (LANE_ANY_SHORT(least, LANE_ZERO)) {
-#define LOOK(l)                                                                                                        \
-    if (!(LANE_ITEM(least, l) >= 0)) STORE_SAME(look + LANE_ITEM(who.own, l) / W, 1);
-            LANE_EACH(LOOK)
-#undef LOOK
-        }
+        cells_force_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, ratio, displacement, flux, bond_part,
+                       k_one, one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
     }
 }
 

@@ -293,7 +293,7 @@ KERNEL void soft_measure(int n, int book, coeff release, OWN(int) row_start, OWN
         int count = 0;
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
-            if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
+            if (!lead[entry] || !open[entry] || !(alive[entry] > 0)) continue; /* the leading side writes both */
             const int j = neighbour[entry];
             const coeff spring = SOFT_BOND_MODULUS(e, j) * one_plus_tau;
             const soft_face face = {SOFT_NUMBER(entry, START), SOFT_NUMBER(entry, ENERGY) * SOFT_NUMBER(entry, TILT),

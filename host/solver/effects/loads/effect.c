@@ -32,9 +32,8 @@ static brc_status leave(brc_simulation *s)
     s->loads->work_before += work;
     BRC_TRY(brc_held_faces_places(s, &left));
     brc_loads_free(s->loads);
-    brc_set_face_loads(s, false);
     s->loads->held.left = left;
-    return BRC_OK;
+    return brc_set_face_loads(s, false);
 }
 static void release(brc_simulation *s)
 {

@@ -9,6 +9,7 @@ typedef struct held_arrays {
     brc_load_member *items; /* faces by row of their element */
     int32_t *bits;          /* [n_free_faces] components */
     int32_t *element, *place, *face_start;
+    int32_t *held_of; /* [n_boundary][slice] */
     double *area, *arm, *spring;
 } held_arrays;
 
@@ -38,6 +39,9 @@ static brc_status collect_held(brc_simulation *s, const brc_stage *stage, int32_
 
 static brc_status allocate(brc_simulation *s, int32_t n, held_arrays *a)
 {
+    const int64_t n_places = (int64_t)s->layout->n_boundary * s->layout->slice;
+    BRC_TRY(BRC_ALLOCATE(s->context, &a->held_of, n_places, "held elements"));
+    memset(a->held_of, -1, (size_t)n_places * sizeof *a->held_of);
     BRC_TRY(BRC_ALLOCATE(s->context, &a->items, n, "held faces"));
     BRC_TRY(BRC_ALLOCATE(s->context, &a->element, n, "held elements"));
     BRC_TRY(BRC_ALLOCATE(s->context, &a->place, 2 * (int64_t)n, "held elements"));
@@ -75,6 +79,7 @@ static void group(const brc_simulation *s, brc_held_faces *held, held_arrays *a)
             a->element[held->n_elements] = row;
             a->place[2 * held->n_elements] = s->layout->boundary[row / s->layout->slice];
             a->place[2 * held->n_elements + 1] = row % s->layout->slice;
+            a->held_of[a->place[2 * held->n_elements] * s->layout->slice + row % s->layout->slice] = held->n_elements;
             a->face_start[held->n_elements++] = i;
         }
         held->index_of_free_face[f] = i;
@@ -124,6 +129,7 @@ static brc_status create_load(brc_simulation *s, const brc_load *load, const brc
     const int64_t count = set->n_members;
     BRC_FREED int32_t *face = NULL;
     entry->n = (int32_t)count;
+    entry->factor = NAN;
     BRC_LOCAL(s->context, 3 * count, double, now, "face positions");
     BRC_TRY(BRC_ALLOCATE(s->context, &face, count, "held load"));
     BRC_LOCAL(s->context, count, int32_t, flag, "held load");
@@ -163,8 +169,9 @@ static brc_status upload(brc_simulation *s, const held_arrays *a, brc_held_faces
     BRC_TRY(brc_upload_int(held->element, a->element, n_elements));
     BRC_TRY(brc_upload_int(held->place, a->place, 2 * n_elements));
     BRC_TRY(brc_upload_int(held->face_start, a->face_start, n_elements + 1));
+    BRC_TRY(brc_upload_int(held->held_of, a->held_of, (int64_t)s->layout->n_boundary * s->layout->slice));
     BRC_TRY(brc_load_fields_create(s, &brc_held_face_fields, n, held));
-    BRC_TRY(brc_upload_coeff(s, held->area, a->area, 3 * n));
+    BRC_TRY(brc_upload_coeff(s, held->face_area, a->area, 3 * n));
     BRC_TRY(brc_upload_coeff(s, held->arm, a->arm, 3 * n));
     BRC_TRY(brc_upload_coeff(s, held->spring, a->spring, n));
     return brc_load_upload_components(s, held->held, held->component_of_face, (int32_t)n);
@@ -200,6 +207,7 @@ cleanup:
     brc_memory_free(a.element);
     brc_memory_free(a.place);
     brc_memory_free(a.face_start);
+    brc_memory_free(a.held_of);
     brc_memory_free(a.area);
     brc_memory_free(a.arm);
     brc_memory_free(a.spring);

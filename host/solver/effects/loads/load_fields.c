@@ -6,10 +6,11 @@ static const brc_field_row held_element_rows[] = {
     BRC_FIELD(element, brc_each_listed, 1, INT, NULL, "held elements", "-"),
     BRC_FIELD(place, brc_each_listed, 2, INT, NULL, "held elements", "-"),
     BRC_FIELD(face_start, brc_each_listed_end, 1, INT, NULL, "held elements", "-"),
+    BRC_FIELD(held_of, brc_each_boundary, 1, INT, NULL, "held elements", "-"),
 };
 BRC_FIELD_TABLE(brc_held_element_fields, "held elements", BRC_LIFE_STAGE, NULL, held_element_rows);
 static const brc_field_row held_face_rows[] = {
-    BRC_FIELD(area, brc_each_listed, 3, COEFF, NULL, "held face areas", "m^2"),
+    BRC_FIELD(face_area, brc_each_listed, 3, COEFF, NULL, "held face areas", "m^2"),
     BRC_FIELD(arm, brc_each_listed, 3, COEFF, NULL, "held face arms", "m"),
     BRC_FIELD(spring, brc_each_listed, 1, COEFF, NULL, "held face springs", "N/m"),
     BRC_FIELD(held, brc_each_listed, 3, COEFF, NULL, "held components", "-"),

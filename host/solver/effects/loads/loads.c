@@ -188,7 +188,7 @@ brc_status brc_loads_create(brc_simulation *s, const brc_stage *stage, brc_loads
         out->n_prescribed += any;
     }
     out->on_faces = out->held.n_faces > 0 || out->n_tractions > 0;
-    brc_set_face_loads(s, out->on_faces);
+    if (first == BRC_OK && status == BRC_OK) status = brc_set_face_loads(s, out->on_faces);
 cleanup:
     brc_memory_free(taken);
     brc_memory_free(turned);

@@ -35,6 +35,8 @@ int32_t brc_loads_n_held_faces(const brc_simulation *s);
 /* A pass over the elements of held faces, which asks for `value`, and for `reaction` too; nothing where none is
  * held. */
 brc_status brc_held_faces_run(brc_simulation *s, const brc_pass *pass, const brc_force_request *r, bool reactions);
+/* A pass over all elements that does the held faces of its own too. */
+brc_scope brc_scope_of_held_faces(const brc_simulation *s, const brc_scope *outer);
 /* A pass over the elements under each traction, for moments [N m] and, booked as the request says, for forces; both ask
  * for `factor`. */
 brc_status brc_traction_moments_run(brc_simulation *s, const brc_pass *pass, const brc_force_request *r);

@@ -8,13 +8,14 @@
 typedef struct brc_held_load {
     int32_t load; /* index into the stage's loads */
     int32_t n;
+    double factor;                                   /* that the faces are at; NAN: not known */
     brc_buffer *face, *component, *base, *direction; /* [n], [n][3] ... */
 } brc_held_load;
 typedef struct brc_held_faces {
     int32_t n_elements, n_faces;
     int32_t *index_of_free_face; /* [domain n_free_faces] -1: not held; host */
     int32_t *component_of_face;  /* [n_faces] bits 1 2 4: held components; host */
-    brc_buffer *element, *place, *face_start, *area, *arm, *held, *spring;
+    brc_buffer *element, *place, *face_start, *held_of, *face_area, *arm, *held, *spring;
     brc_buffer *value, *zero_value, *reaction, *last, *last_reaction, *work, *scratch, *energy;
     int32_t n_loads;
     brc_held_load *loads;

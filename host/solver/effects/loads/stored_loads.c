@@ -1,6 +1,7 @@
 /* What the loads of the stage remember, number by number, for a store (state_store.h). */
 #include "../../core/state_store.h"
 #include "loads_internal.h"
+#include <math.h>
 #include <stdio.h>
 
 /* What a list of a load keeps, as "loads.<kind>.<i>.<what>". */
@@ -28,8 +29,10 @@ static brc_status walk_held(brc_simulation *s, brc_state_store *store)
     for (int64_t f = 0; f < s->domain->n_free_faces; ++f)
         if (h->index_of_free_face[f] >= 0) face[h->index_of_free_face[f]] = (int32_t)f;
     BRC_TRY(walk_list(s, store, "held", 0, &brc_held_face_fields, h, h->n_faces, face));
-    for (int32_t i = 0; i < h->n_loads; ++i) /* in the order of the set's members */
+    for (int32_t i = 0; i < h->n_loads; ++i) { /* in the order of the set's members */
         BRC_TRY(walk_list(s, store, "held", i, &brc_held_load_fields, h->loads + i, h->loads[i].n, NULL));
+        h->loads[i].factor = NAN; /* the store may have other places */
+    }
     return BRC_OK;
 }
 

@@ -1,6 +1,7 @@
 /* Bonds of dlsm that break (docs/notebook/fracture.md, "Fracture of cells"). */
 #include "cell_softening.h"
 #include "../../core/sym3.h"
+#include "../../effects/loads/loads.h"
 #include "consistent.h"
 #include "dlsm_internal.h"
 #include "rims.h"
@@ -99,6 +100,8 @@ static brc_status make_passes(brc_simulation *s)
     const brc_scope evaluation = brc_scope_of_request(brc_cell_scopes_make(s, &request, &of_request));
     BRC_TRY(BRC_PASSES(s, &evaluation, {&c->screening_force, "cells_force", NULL, whole},
                        {&c->screening_force_listed, "cells_force_listed", BRC_LISTED, whole}));
+    const brc_scope held = brc_scope_of_held_faces(s, &evaluation);
+    BRC_TRY(BRC_PASSES(s, &held, {&c->screening_force_held, "cells_force_held", NULL, whole || !s->wants.face_loads}));
     return brc_rims_make_passes(s, state);
 }
 

@@ -65,6 +65,7 @@ static softening_faces *faces_of(const brc_simulation *s)
     return brc_dlsm_own_of(s)->softening;
 }
 BRC_READ(bool, brc_softening_is_on, faces_of(s) != NULL)
+BRC_READ(bool, brc_softening_acts, faces_of(s) && faces_of(s)->any)
 
 static brc_status make_passes(brc_simulation *s, softening_faces *f)
 {

@@ -15,6 +15,8 @@ extern const brc_field_table brc_softening_fields;
 brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strengths);
 void brc_softening_free(brc_simulation *s);
 bool brc_softening_is_on(const brc_simulation *s);
+/* Some face opened. */
+bool brc_softening_acts(const brc_simulation *s);
 
 /* What the openings change in an evaluation: H after the pass of gradients, B after that of fluxes (of the rings that
  * the pass went over), the forces; energies after those of the bonds. */

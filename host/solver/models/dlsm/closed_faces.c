@@ -31,7 +31,7 @@ static bool is_disabled(const brc_simulation *s)
 {
     return brc_simulation_stage(s) < 0 || brc_current_stage(s)->solver != BRC_SOLVER_DYNAMIC;
 }
-static bool acts(const brc_simulation *s, const brc_force_request *r)
+bool brc_closed_faces_act(const brc_simulation *s, const brc_force_request *r)
 {
     const closed_faces *f = faces_of(s);
     return f && f->any && !is_disabled(s) && !r->homogeneous && r->displacement == brc_displacement_of(s);
@@ -137,7 +137,7 @@ void brc_closed_faces_free(brc_simulation *s)
 brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r)
 {
     closed_faces *f = faces_of(s);
-    if (!acts(s, r) || r->rings) return BRC_OK;
+    if (!brc_closed_faces_act(s, r) || r->rings) return BRC_OK;
     const bool moves = r->book == BRC_BOOK_WORK;
     BRC_TRY(brc_buffer_fill_zero(f->presses));
     BRC_TRY(BRC_RUN(f->follow, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"all", BRC_INT(f->all ? 1 : 0)},
@@ -150,7 +150,7 @@ brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r)
 brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {
     const closed_faces *f = faces_of(s);
-    if (!acts(s, r)) return BRC_OK;
+    if (!brc_closed_faces_act(s, r)) return BRC_OK;
     const brc_rings *rings = brc_cell_breaks_rings(s);
     const bool whole = brc_pass_is_whole(s, list, ring), deltas = r->rings && brc_rims_add(s, r->rings);
     const int32_t n = whole ? s->n_groups : list->n[ring];
@@ -161,7 +161,7 @@ brc_status brc_closed_faces_flux(brc_simulation *s, const brc_force_request *r, 
 brc_status brc_closed_faces_force(brc_simulation *s, const brc_force_request *r, const brc_ring_list *list, int ring)
 {
     const closed_faces *f = faces_of(s);
-    if (!acts(s, r)) return BRC_OK;
+    if (!brc_closed_faces_act(s, r)) return BRC_OK;
     const bool whole = brc_pass_is_whole(s, list, ring);
     const int32_t n = whole ? s->n_groups : list->n[ring];
     return BRC_RUN_ON(f->force, n, r, NULL, {"listed", BRC_INT(!whole)},

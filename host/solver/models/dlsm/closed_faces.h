@@ -15,6 +15,8 @@ brc_status brc_closed_faces_create(brc_simulation *s);
 void brc_closed_faces_free(brc_simulation *s);
 
 /* ---- an evaluation; of the rings around breaks with the loads that faces had before ---- */
+/* Whether any may be. */
+bool brc_closed_faces_act(const brc_simulation *s, const brc_force_request *r);
 /* After the gradients: which faces are pressed. */
 brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r);
 /* After the pass of fluxes over the rings 0 to `ring` of a list: B of pressed elements. */

@@ -9,6 +9,7 @@ typedef struct brc_dlsm_own {
     brc_pass *gradient, *stress, *flux, *flux_linear, *force, *energy, *deformation, *face_displacement;
     brc_pass *gradient_listed, *stress_listed, *flux_listed, *force_listed, *energy_listed; /* only with fracture */
     brc_pass *held_gradient, *held_moment, *held_force, *traction_moment, *traction_force;
+    brc_pass *gradient_held, *stress_held, *force_held, *screening_force_held; /* with the held faces; NULL: none is */
     brc_pass *screening_force, *screening_force_listed, *check, *ratio, *rebuild, *elastic, *bonds; /* breaks.c */
     brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force;                                   /* rims.c */
     struct brc_softening_faces *softening; /* faces that open against cohesion (cell_softening.c); NULL: none does */

@@ -1,6 +1,7 @@
 /* Forces and energies of dlsm: the order of its passes (docs/notebook/theory.md T2). */
 #include "cell_softening.h"
 #include "closed_faces.h"
+#include "../../../device/shares.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/loads/loads.h"
 #include "dlsm_internal.h"
@@ -11,7 +12,8 @@
 typedef struct extent {
     const brc_ring_list *list;
     int gradient, stress, flux, force;
-    bool whole_flux; /* of all elements all the same */
+    bool whole_flux;                  /* of all elements all the same */
+    bool held_gradients, held_forces; /* the passes do these of the held faces too; of stresses moments and reactions */
 } extent;
 
 static extent extent_of(const brc_simulation *s, const brc_force_request *r)
@@ -27,20 +29,34 @@ static extent extent_of(const brc_simulation *s, const brc_force_request *r)
                     .whole_flux = brc_rings_are_whole(r->rings)};
 }
 
+/* A body of more rows fills a GPU: registers that held faces take of every row are then worth more than launches. */
+enum { MOST_ROWS_HELD = 1 << 18 };
+
+/* Held faces: launches of their own in large bodies, where other things are added between, over lists, and on several
+ * ranks, whose launches are of rows alone. */
+static void hold_in_passes(const brc_simulation *s, const brc_force_request *r, extent *x)
+{
+    x->held_gradients = brc_loads_n_held_faces(s) > 0 && s->layout->n_rows <= MOST_ROWS_HELD && !r->homogeneous &&
+                        !r->rings && !x->list && !brc_softening_acts(s) && !brc_device_is_shared(s->device);
+    x->held_forces = x->held_gradients && !brc_closed_faces_act(s, r);
+}
+
 /* H and, where faces are held, their part of G. */
 static brc_status gradients(brc_simulation *s, const brc_force_request *r, const extent *x)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
+    if (x->held_gradients) return brc_pass_run_on(own->gradient_held, s->n_groups, r, NULL, NULL);
     BRC_TRY(brc_pass_over(s, own->gradient, own->gradient_listed, x->list, x->gradient, r, NULL));
     if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s, x->list, x->gradient));
     return brc_held_faces_run(s, own->held_gradient, r, false);
 }
 
 /* What held faces, tractions and contact add to Q. */
-static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
+static brc_status face_moments(brc_simulation *s, const brc_force_request *r, const extent *x)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
     const bool touching = brc_contact_acts(s, r);
+    if (x->held_forces && !touching) return brc_traction_moments_run(s, own->traction_moment, r);
     if (!brc_loads_on_faces(s) && !touching) return BRC_OK;
     BRC_TRY(brc_buffer_fill_zero(brc_held_moment_of(s)));
     if (touching) {
@@ -53,10 +69,10 @@ static brc_status face_moments(brc_simulation *s, const brc_force_request *r)
 }
 
 /* Forces of held faces and tractions on their elements, and their work. */
-static brc_status face_forces(brc_simulation *s, const brc_force_request *r)
+static brc_status face_forces(brc_simulation *s, const brc_force_request *r, const extent *x)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
-    BRC_TRY(brc_held_faces_run(s, own->held_force, r, true));
+    if (!x->held_forces) BRC_TRY(brc_held_faces_run(s, own->held_force, r, true));
     return r->homogeneous ? BRC_OK : brc_traction_forces_run(s, own->traction_force, r);
 }
 
@@ -68,11 +84,13 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
     BRC_TRY(gradients(s, r, x));
     BRC_TRY(brc_closed_faces_press(s, r));
     if (r->displacement == brc_displacement_of(s) && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
-    if (r->rings && brc_rims_energies_apart(s))
+    if (x->held_forces)
+        BRC_TRY(brc_pass_run_on(own->stress_held, s->n_groups, r, NULL, NULL));
+    else if (r->rings && brc_rims_energies_apart(s))
         BRC_TRY(brc_rims_stress(s, r));
     else
         BRC_TRY(brc_pass_over(s, own->stress, own->stress_listed, x->list, x->stress, r, NULL));
-    BRC_TRY(face_moments(s, r));
+    BRC_TRY(face_moments(s, r, x));
     const bool moments = brc_loads_on_faces(s) || brc_contact_acts(s, r);
     if (r->rings && brc_rims_add(s, r->rings))
         BRC_TRY(brc_rims_flux(s, r, moments));
@@ -86,18 +104,22 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
 brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
-    const extent x = extent_of(s, r);
+    extent x = extent_of(s, r);
+    hold_in_passes(s, r, &x);
     BRC_TRY(fluxes(s, r, &x));
     const brc_ring_list *list = x.whole_flux ? NULL : x.list;
+    const bool screens = r->finite && !r->homogeneous && !r->rings && brc_dlsm_screens(s);
     if (!r->rings && !brc_pass_is_whole(s, list, x.force))
         BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
-    if (r->finite && !r->homogeneous && !r->rings && brc_dlsm_screens(s))
+    if (x.held_forces)
+        BRC_TRY(brc_pass_run_on(screens ? own->screening_force_held : own->force_held, s->n_groups, r, NULL, NULL));
+    else if (screens)
         BRC_TRY(brc_dlsm_screening_forces(s, r, list, x.force));
     else
         BRC_TRY(brc_pass_over(s, own->force, own->force_listed, list, x.force, r, NULL));
     BRC_TRY(brc_closed_faces_force(s, r, list, x.force));
     if (!r->homogeneous) BRC_TRY(brc_softening_force(s, r->force));
-    return face_forces(s, r);
+    return face_forces(s, r, &x);
 }
 
 brc_status brc_dlsm_gradients_around(brc_simulation *s, const brc_force_request *r)

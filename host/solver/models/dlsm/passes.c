@@ -53,6 +53,10 @@ brc_status brc_dlsm_make_face_passes(brc_simulation *s, const brc_face_scopes *i
     BRC_TRY(BRC_PASSES(s, in->held, BRC_PASS(&p->held_gradient, "held_gradient_pass", "value"),
                        BRC_PASS(&p->held_moment, "held_moment_pass", "value"),
                        BRC_PASS(&p->held_force, "held_force_pass", "value reaction")));
+    const bool none = !s->wants.face_loads;
+    BRC_TRY(BRC_PASSES(s, in->held, {&p->gradient_held, "dlsm_gradient_held", NULL, none},
+                       {&p->stress_held, "dlsm_stress_held", NULL, none},
+                       {&p->force_held, "dlsm_force_held", NULL, none}));
     BRC_TRY(BRC_PASSES(s, in->held_state, BRC_PASS(in->energy, "held_energy", NULL)));
     BRC_TRY(BRC_PASSES(s, in->held_load, BRC_PASS(in->prescribe, "held_prescribe", "factor")));
     return BRC_PASSES(s, in->traction, BRC_PASS(&p->traction_moment, "traction_moment_pass", "factor"),

@@ -62,6 +62,36 @@ static void elastic_steps_are_few_launches_and_nobody_waits(void **state)
     }
 }
 
+/* Held faces: in the passes of their elements, and one launch where what they are held at changes. Prescribed elements
+ * of two loads: one launch that moves them, one that books. */
+static void loads_on_few_elements_are_few_launches(void **state)
+{
+    (void)state;
+    const struct {
+        const char *model, *loads;
+        int64_t launches, close;
+    } cases[] = {
+        {"dlsm", "    loads:\n      - face_displacement: {set: x-, x: 0}\n", 5, 1},
+        {"dlsm",
+         "    loads:\n      - face_displacement: {set: x-, x: 0}\n      - face_velocity: {set: x+, x: 1e-3 m/s}\n", 6,
+         1},
+        {"dlsm-published",
+         "    loads:\n      - element_displacement: {set: left, x: 0}\n"
+         "      - element_velocity: {set: right, x: 1e-3 m/s}\n",
+         6, 3}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        char stages[400];
+        snprintf(stages, sizeof stages, "%s%s", MOVE, cases[k].loads);
+        const brc_device_counts work =
+            work_of((case_options){.model = cases[k].model,
+                                   .stages = stages,
+                                   .sets = "sets: {left: {elements: {wall: x-}}, right: {elements: {wall: x+}}}\n"},
+                    STEPS);
+        assert_int_equal(work.launches, cases[k].launches * STEPS + cases[k].close);
+        assert_int_equal(work.waits, 0);
+    }
+}
+
 /* Two more launches in a step, and one question after BRC_AHEAD_MOST of them. */
 static void where_nothing_breaks_nobody_waits_but_at_the_end_of_a_stretch(void **state)
 {
@@ -320,6 +350,7 @@ static void beams_that_do_not_break_are_two_launches_more(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_steps_are_few_launches_and_nobody_waits),
+                                       cmocka_unit_test(loads_on_few_elements_are_few_launches),
                                        cmocka_unit_test(where_nothing_breaks_nobody_waits_but_at_the_end_of_a_stretch),
                                        cmocka_unit_test(steps_ahead_have_the_bits_of_steps_that_are_known),
                                        cmocka_unit_test(so_they_have_where_surfaces_touch),
