@@ -136,13 +136,12 @@ brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
     BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
     if (m->n_levels > 1) {
         const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
-                                up = {.move = l->step.move, .turn = l->step.turn};
+                                up = {.move = x.move, .turn = x.turn};
         BRC_TRY(BRC_RUN_ON(m->pass.collect, c->n, &down, l, {"whole_force", BRC_BUF(c->right.move)},
                            {"whole_torque", BRC_BUF(c->right.turn)}));
         BRC_TRY(cycle(m, 1));
         BRC_TRY(BRC_RUN_ON(m->pass.spread, l->n, &up, l, {"whole_move", BRC_BUF(c->x.move)},
                            {"whole_turn", BRC_BUF(c->x.turn)}));
-        BRC_TRY(brc_unknowns_add(m->s, 1, l->step, x));
         BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
     }
     BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
