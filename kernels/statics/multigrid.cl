@@ -108,24 +108,24 @@ KERNEL void multigrid_matrix(int n, OWN(int) start, OWN(int) column, OWN(state) 
     }
 }
 
-/* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21]. n_right as above: a missing torque is zero. */
+/* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21], row by row. n_right as above: a missing torque is zero. */
 KERNEL void multigrid_step(int n, state weight, int add, OWN(state) inverse, int n_right, OWN(state) force,
                            OWN(state) torque, UPDATE(state) move, UPDATE(state) turn)
 {
     FOR_EACH_ITEM(e, n) {
-        GLOBAL const state *p = inverse + (brc_size)e * 21;
-        multigrid_node r = {{0, 0, 0, 0, 0, 0}}, z = {{0, 0, 0, 0, 0, 0}};
-        for (int c = 0; c < 3; ++c) {
-            r.v[c] = weight * force[(brc_size)e * 3 + c];
-            if (n_right > 1) r.v[c + 3] = weight * torque[(brc_size)e * 3 + c];
-        }
-        if (add) z = multigrid_load(move, turn, e);
-        for (int a = 0, at = 0; a < 6; ++a)
-            for (int b = a; b < 6; ++b, ++at) {
-                z.v[a] += p[at] * r.v[b];
-                if (b > a) z.v[b] += p[at] * r.v[a];
-            }
-        multigrid_store(move, turn, e, z);
+        GLOBAL const state *p = inverse + (brc_size)e * 21, *f = force + (brc_size)e * 3, *t = torque + (brc_size)e * 3;
+        const state a = weight * f[0], b = weight * f[1], c = weight * f[2];
+        state d = 0, g = 0, h = 0;
+        multigrid_node x = {{0, 0, 0, 0, 0, 0}};
+        if (n_right > 1) d = weight * t[0], g = weight * t[1], h = weight * t[2];
+        if (add) x = multigrid_load(move, turn, e);
+        x.v[0] = x.v[0] + p[0] * a + p[1] * b + p[2] * c + p[3] * d + p[4] * g + p[5] * h;
+        x.v[1] = x.v[1] + p[1] * a + p[6] * b + p[7] * c + p[8] * d + p[9] * g + p[10] * h;
+        x.v[2] = x.v[2] + p[2] * a + p[7] * b + p[11] * c + p[12] * d + p[13] * g + p[14] * h;
+        x.v[3] = x.v[3] + p[3] * a + p[8] * b + p[12] * c + p[15] * d + p[16] * g + p[17] * h;
+        x.v[4] = x.v[4] + p[4] * a + p[9] * b + p[13] * c + p[16] * d + p[18] * g + p[19] * h;
+        x.v[5] = x.v[5] + p[5] * a + p[10] * b + p[14] * c + p[17] * d + p[19] * g + p[20] * h;
+        multigrid_store(move, turn, e, x);
     }
 }
 
@@ -153,23 +153,22 @@ KERNEL void multigrid_collect(int n, OWN(int) start, OWN(int) member, GATHER(coe
     }
 }
 
-/* Members move with their aggregate in their free components. aggregate [n], -1: none. */
+/* Members move on with their aggregate in their free components. aggregate [n], -1: none. */
 KERNEL void multigrid_spread(int n, OWN(int) aggregate, OWN(coeff) arm, OWN(int) free_bits, GATHER(state) whole_move,
-                             GATHER(state) whole_turn, PUT(state) move, PUT(state) turn)
+                             GATHER(state) whole_turn, UPDATE(state) move, UPDATE(state) turn)
 {
     FOR_EACH_ITEM(e, n) {
-        multigrid_node y = {{0, 0, 0, 0, 0, 0}};
         if (aggregate[e] >= 0) {
             const int bits = free_bits[e];
             const state x = (state)arm[(brc_size)e * 3], z = (state)arm[(brc_size)e * 3 + 2],
                         w = (state)arm[(brc_size)e * 3 + 1];
-            y = multigrid_load(whole_move, whole_turn, aggregate[e]);
+            multigrid_node to = multigrid_load(move, turn, e), y = multigrid_load(whole_move, whole_turn, aggregate[e]);
             y.v[0] += y.v[4] * z - y.v[5] * w;
             y.v[1] += y.v[5] * x - y.v[3] * z;
             y.v[2] += y.v[3] * w - y.v[4] * x;
-            for (int c = 0; c < 6; ++c) y.v[c] = bits >> c & 1 ? y.v[c] : 0;
+            for (int c = 0; c < 6; ++c) to.v[c] += bits >> c & 1 ? y.v[c] : 0;
+            multigrid_store(move, turn, e, to);
         }
-        multigrid_store(move, turn, e, y);
     }
 }
 

@@ -108,14 +108,31 @@ static brc_status correct(brc_simulation *s, brc_solve_vectors *v, bool finite)
     return brc_vector_small_rotation(s, v->theta, brc_orientation_of(s));
 }
 
-/* How much of the residual a correction of the full law is solved to: to a tenth of what the law's change left of it
- * after the correction before; the first one to `at_first`. Where no more was left than was asked for, the law hardly
- * changes, and the next correction is the last. (Blocks lose more by beginning anew than this saves.) */
-static double worthwhile(int correction, double lasting)
+/* What the last two corrections of the full law left that the linear operator did not foresee, over the residuals they
+ * were for [-]. */
+typedef struct change_of_law {
+    double last, before;
+} change_of_law;
+
+/* How much of the residual a correction is solved to: to a third of what the law's change may leave of it; the first
+ * one to `at_first`. A correction of what the law itself left may be none of the motion that it changes with, so the
+ * one before that counts too, up to `lasting`. (Blocks lose more by beginning anew than this saves.) */
+static double worthwhile(int correction, const change_of_law *change)
 {
-    static const double at_first = 3e-4;
+    static const double at_first = 1e-2, lasting = 1e-2;
     if (correction == 0) return at_first;
-    return lasting < 3 * at_first ? 0 : fmin(0.1 * lasting, 0.1);
+    return fmin(0.3 * fmax(change->last, fmin(change->before, lasting)), 0.1);
+}
+
+/* After a correction for a residual `of` [N], which left v->r of it in the linear operator. */
+static brc_status note_change(brc_simulation *s, brc_solve_vectors *v, double of, change_of_law *change)
+{
+    double square;
+    BRC_TRY(brc_unknowns_copy((brc_unknowns){brc_force_of(s), brc_torque_of(s)}, v->kp));
+    BRC_TRY(brc_unknowns_add(s, -1, v->r, v->kp));
+    BRC_TRY(brc_statics_square(s, v, v->kp, &square));
+    *change = (change_of_law){sqrt(square) / of, change->last};
+    return BRC_OK;
 }
 
 /* Whether a residual that stands is what the rounding of the displacements alone leaves: of the force of as much noise
@@ -163,6 +180,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     const brc_model_statics *by = s->model->statics;
     const bool finite = stage->finite_strain && !by->linear;
     const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
+    change_of_law change = {0};
     double norm, left,
         last = INFINITY,
         earlier = INFINITY; /* slender beams: stretch and bending settle in turn, so two corrections count */
@@ -193,7 +211,6 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
             brc_preconditioner_give_up(s, v);
             last = norm = INFINITY;
         }
-        const double lasting = norm / last; /* the part of the residual that the correction before this one left */
         earlier = last;
         last = norm;
         BRC_TRY(brc_unknowns_copy((brc_unknowns){brc_force_of(s), brc_torque_of(s)}, v->r));
@@ -203,12 +220,13 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         if (by->symmetric) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(brc_preconditioner_prepare(s, v));
-        const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, lasting) : 0,
+        const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, &change) : 0,
                      target = fmax(0.3 * tolerance * *reference, worth * norm);
         BRC_TRY(by->symmetric ? brc_conjugate_gradients(s, v, false, target, most, progress, &left)
                               : brc_gmres(s, v, target, most, progress, &left));
         BRC_TRY(correct(s, v, finite));
         BRC_TRY(brc_statics_residual(s, v, finite, &norm));
+        if (finite && v->preconditioner.multigrid) BRC_TRY(note_change(s, v, last, &change));
         s->statics->report.corrections += 1;
         if (brc_simulation_stopped_early(s)) break;
     }

@@ -122,30 +122,29 @@ static brc_status cycle(brc_multigrid *m, int level)
     return brc_level_step(m, level, l->weight, true, l->left, l->x);
 }
 
-/* The same on the finest level, whose P = (1 - weight D^-1 A) T is applied as it is made. */
+/* The same on the finest level, whose P is not stored. With S = 1 - weight D^-1 A, P = S T: what P^T gives of a
+ * residual is T^T of the one that another step of that weight leaves, and P likewise. So that step is kept before and
+ * after the coarser levels, for no evaluation of A more, and a longer one goes with it. */
 brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
 {
-    brc_simulation *s = m->s;
+    static const double longer = 1.3; /* measured (docs/notebook/performance.md), flat about here; below 1.5 */
     brc_level *l = &m->level[0], *c = l + 1;
-    const int64_t n = l->n;
-    const brc_unknowns x = {z.move, z.turn ? z.turn : l->x.turn}, none = {NULL, NULL};
-    BRC_TRY(brc_level_step(m, 0, l->weight, false, r, x));
+    const brc_unknowns x = {z.move, z.turn ? z.turn : l->x.turn};
+    BRC_TRY(brc_level_step(m, 0, longer * l->weight, false, r, x));
+    BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
+    BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
+    BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
     if (m->n_levels > 1) {
-        BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
-        BRC_TRY(brc_level_step(m, 0, l->weight, false, l->left, l->step));
-        BRC_TRY(brc_level_residual(m, 0, l->step, l->left, l->right));
-        const brc_level_vectors down = {.force = l->right.move, .torque = l->right.turn},
-                                up = {.move = l->step.move, .turn = l->step.turn};
+        const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
+                                up = {.move = x.move, .turn = x.turn};
         BRC_TRY(BRC_RUN_ON(m->pass.collect, c->n, &down, l, {"whole_force", BRC_BUF(c->right.move)},
                            {"whole_torque", BRC_BUF(c->right.turn)}));
         BRC_TRY(cycle(m, 1));
-        BRC_TRY(BRC_RUN_ON(m->pass.spread, n, &up, l, {"whole_move", BRC_BUF(c->x.move)},
+        BRC_TRY(BRC_RUN_ON(m->pass.spread, l->n, &up, l, {"whole_move", BRC_BUF(c->x.move)},
                            {"whole_turn", BRC_BUF(c->x.turn)}));
-        BRC_TRY(brc_vector_axpy(s, 3 * n, 1, l->step.move, x.move));
-        BRC_TRY(brc_vector_axpy(s, 3 * n, 1, l->step.turn, x.turn));
-        BRC_TRY(brc_level_residual(m, 0, l->step, none, l->left));
-        BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
+        BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
     }
+    BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
     BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
-    return brc_level_step(m, 0, l->weight, true, l->left, x);
+    return brc_level_step(m, 0, longer * l->weight, true, l->left, x);
 }
