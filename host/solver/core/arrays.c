@@ -108,3 +108,5 @@ brc_status brc_new_int(brc_simulation *s, brc_buffer **out, const int32_t *value
     BRC_TRY(brc_buffer_create(s->device, out, count * 4, what));
     return brc_upload_int(*out, values, count);
 }
+
+BRC_READ(bool, brc_pass_may_do_more, !brc_device_is_shared(s->device))

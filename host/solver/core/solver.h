@@ -61,6 +61,9 @@ struct brc_simulation {
         return value;                                                                                                  \
     }
 
+/* Whether a pass over rows may do what belongs to few of them too: where all rows are one device's (core/arrays.c). */
+bool brc_pass_may_do_more(const brc_simulation *s);
+
 /* ---- arrays of elements and bonds (core/element_arrays.c); NULL: not in this run ---- */
 brc_buffer *brc_displacement_of(const brc_simulation *s); /* [n_rows][3] */
 brc_buffer *brc_velocity_of(const brc_simulation *s);

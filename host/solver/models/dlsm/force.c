@@ -1,7 +1,6 @@
 /* Forces and energies of dlsm: the order of its passes (docs/notebook/theory.md T2). */
 #include "cell_softening.h"
 #include "closed_faces.h"
-#include "../../../device/shares.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/loads/loads.h"
 #include "dlsm_internal.h"
@@ -32,12 +31,11 @@ static extent extent_of(const brc_simulation *s, const brc_force_request *r)
 /* A body of more rows fills a GPU: registers that held faces take of every row are then worth more than launches. */
 enum { MOST_ROWS_HELD = 1 << 18 };
 
-/* Held faces: launches of their own in large bodies, where other things are added between, over lists, and on several
- * ranks, whose launches are of rows alone. */
+/* Held faces: launches of their own in large bodies, where other things are added between, and over lists. */
 static void hold_in_passes(const brc_simulation *s, const brc_force_request *r, extent *x)
 {
     x->held_gradients = brc_loads_n_held_faces(s) > 0 && s->layout->n_rows <= MOST_ROWS_HELD && !r->homogeneous &&
-                        !r->rings && !x->list && !brc_softening_acts(s) && !brc_device_is_shared(s->device);
+                        !r->rings && !x->list && !brc_softening_acts(s) && brc_pass_may_do_more(s);
     x->held_forces = x->held_gradients && !brc_closed_faces_act(s, r);
 }
 
