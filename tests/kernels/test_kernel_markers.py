@@ -12,7 +12,7 @@ import sys
 sys.setrecursionlimit(100000)
 KERNELS = os.path.join(os.environ["BRC_SOURCE_DIR"], "kernels")
 # Arrays whose numbers lead to own rows: starts of rows, and lists of what the work-items go over.
-TO_OWN = {"row_start", "list", "element", "face_start", "start", "boundary", "todo", "with_pairs", "redo", "face", "column_start"}
+TO_OWN = {"row_start", "list", "listed", "element", "other_element", "held_of", "face_start", "start", "boundary", "todo", "with_pairs", "redo", "face", "column_start"}
 OF_FACES = {"place"}  # of loads on faces: the place of the element among those with faces
 NOTHING = frozenset()
 ITEM = frozenset([("item",)])

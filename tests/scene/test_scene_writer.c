@@ -12,11 +12,24 @@
 #include "../../host/scene/scene_reader.h"
 #include "sample.h"
 
+/* Where a thing stands differs between two texts of a scene. */
+static void take_place(char place[BRC_PLACE_LENGTH], const char *name)
+{
+    if (place[0]) assert_memory_equal(place, name, strlen(name));
+    memset(place, 0, BRC_PLACE_LENGTH);
+}
+
 static brc_scene *read_or_fail(brc_context *context, const char *name, const char *text, size_t bytes)
 {
     brc_scene *scene = NULL;
     if (brc_scene_read_text(context, name, text, bytes, 0, NULL, &scene) != BRC_OK)
         fail_msg("%s\n%.*s", brc_context_message(context), (int)bytes, text);
+    for (int i = 0; i < scene->n_bodies; ++i)
+        take_place(scene->bodies[i].place, name);
+    for (int i = 0; i < scene->n_sets; ++i)
+        take_place(scene->sets[i].place, name);
+    for (int i = 0; i < scene->n_sensors; ++i)
+        take_place(scene->sensors[i].place, name);
     return scene;
 }
 

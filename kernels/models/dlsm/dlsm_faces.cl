@@ -110,8 +110,8 @@ KERNEL void held_moment_pass(int n, OWN(int) element, OWN(int) place, OWN(int) f
 /* f_i += pull, and its reaction and work. */
 KERNEL void held_force_pass(int n, OWN(int) element, OWN(int) face_start, OWN(coeff) face_area, OWN(coeff) arm,
                             OWN(coeff) held, OWN(coeff) spring, OWN(state) value, OWN(state) displacement,
-                            OWN(coeff) gradient, OWN(coeff) stress, int book, UPDATE(state) force, PUT(state) reaction,
-                            UPDATE(state) last, UPDATE(state) last_reaction, UPDATE(state) work)
+                            OWN(coeff) gradient, OWN(coeff) stress, int book, UPDATE(state) force,
+                            UPDATE(state) reaction, UPDATE(state) last, UPDATE(state) last_reaction, UPDATE(state) work)
 {
     FOR_EACH_ITEM(h, n) {
         const int e = element[h];

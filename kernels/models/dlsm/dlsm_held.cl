@@ -11,7 +11,7 @@
 KERNEL void dlsm_gradient_held(int n_items, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
                                GATHER(state) displacement, OWN(coeff) inv_shape, OWN(int) boundary, OWN(int) held_of,
                                OWN(int) face_start, OWN(coeff) face_area, OWN(coeff) arm, OWN(coeff) held,
-                               OWN(state) value, PUT(coeff) gradient, PUT(coeff) held_gradient)
+                               OWN(state) value, UPDATE(coeff) gradient, PUT(coeff) held_gradient)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_group(item, row_start);
@@ -29,8 +29,9 @@ KERNEL void dlsm_stress_held(int n_items, OWN(int) row_start, OWN(int) neighbour
                              OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
                              OWN(coeff) material, int finite, OWN(int) held_of, OWN(int) face_start,
                              OWN(coeff) face_area, OWN(coeff) arm, OWN(coeff) held, OWN(coeff) spring, OWN(state) value,
-                             OWN(state) displacement, int book, PUT(coeff) stress, PUT(coeff) held_moment,
-                             PUT(state) reaction, UPDATE(state) last, UPDATE(state) last_reaction, UPDATE(state) work)
+                             OWN(state) displacement, int book, UPDATE(coeff) stress, PUT(coeff) held_moment,
+                             UPDATE(state) reaction, UPDATE(state) last, UPDATE(state) last_reaction,
+                             UPDATE(state) work)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_group(item, row_start);
@@ -60,7 +61,7 @@ KERNEL void dlsm_stress_held(int n_items, OWN(int) row_start, OWN(int) neighbour
 KERNEL void dlsm_force_held(int n_items, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
                             OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
                             coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, OWN(int) boundary, OWN(int) held_of,
-                            OWN(int) face_start, OWN(state) reaction, PUT(state) force)
+                            OWN(int) face_start, OWN(state) reaction, UPDATE(state) force)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_group(item, row_start);
@@ -75,7 +76,7 @@ KERNEL void cells_force_held(int n_items, OWN(int) row_start, OWN(int) neighbour
                              OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
                              coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient,
                              OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, OWN(int) boundary, OWN(int) held_of,
-                             OWN(int) face_start, OWN(state) reaction, PUT(state) force, PUT(int) look)
+                             OWN(int) face_start, OWN(state) reaction, UPDATE(state) force, PUT(int) look)
 {
     FOR_EACH_ITEM(item, n_items) {
         const members who = members_of_group(item, row_start);
