@@ -127,7 +127,7 @@ static brc_status cycle(brc_multigrid *m, int level)
  * after the coarser levels, for no evaluation of A more, and a longer one goes with it. */
 brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
 {
-    static const double longer = 1.3; /* measured (docs/notebook/performance.md), flat about here; below 1.5 */
+    static const double longer = 1.3; /* over the kept step (docs/notebook/theory.md T6); 1.5 would be 2 / lambda_max */
     brc_level *l = &m->level[0], *c = l + 1;
     const brc_unknowns x = {z.move, z.turn ? z.turn : l->x.turn};
     BRC_TRY(brc_level_step(m, 0, longer * l->weight, false, r, x));
