@@ -22,7 +22,7 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PRECISIONS = ("double", "mixed", "single")
 LIBRARY = "/usr/lib/clc/nvptx64--nvidiacl.bc"
-GROUP = 256  # work-items a group on a GPU (host/device/gpu_layout.h)
+GROUP = {"double": 128, "mixed": 256, "single": 256}  # work-items a group on a GPU (host/device/gpu_layout.h)
 # A streaming multiprocessor of sm_80 and sm_90: registers, given out to warps of 32 in steps of 256; warps at most.
 REGISTERS, REGISTER_STEP, WARPS, WARP = 65536, 256, 64, 32
 COLUMNS = ["kernel", "arch", "precision", "many_materials", "registers", "occupancy_percent", "spill_stores_bytes", "spill_loads_bytes",
@@ -54,7 +54,7 @@ def ptx_of(precision, many, folder):
     resources = subprocess.run(["clang-14", "-print-resource-dir"], capture_output=True, text=True, check=True).stdout.strip()
     subprocess.run(["clang-14", "-cc1", "-x", "cl", "-cl-std=CL1.2", "-triple", "nvptx64-unknown-nvcl", "-finclude-default-header",
                     "-resource-dir", resources, "-internal-isystem", f"{resources}/include", "-I", f"{ROOT}/kernels",
-                    "-D", "__OPENCL_VERSION__=120", "-D", "BRC_LANES=1", "-D", "BRC_SLICE=32", "-D", f"BRC_GROUP={GROUP}",
+                    "-D", "__OPENCL_VERSION__=120", "-D", "BRC_LANES=1", "-D", "BRC_SLICE=32", "-D", f"BRC_GROUP={GROUP[precision]}",
                     "-D", f"BRC_PRECISION={PRECISIONS.index(precision)}", "-D", f"BRC_MANY_MATERIALS={many}",
                     "-O2", "-ffp-contract=on", "-fdenormal-fp-math-f32=preserve-sign", "-target-cpu", "sm_80", "-target-feature", "+ptx72",
                     "-Wno-linker-warnings", "-Wpedantic", "-Werror", "-mlink-builtin-bitcode", LIBRARY, "-S", "-o", ptx, source], check=True)
@@ -95,11 +95,11 @@ def local_arrays(ptx):
     return {name: bytes_of(name, set()) for name in bodies if kinds[name] == "entry"}
 
 
-def occupancy(registers):
-    """Warps that fit a multiprocessor over those it can hold [%], by registers alone, in groups of GROUP."""
+def occupancy(registers, precision):
+    """Warps that fit a multiprocessor over those it can hold [%], by registers alone, in whole groups."""
     a_warp = -(-registers * WARP // REGISTER_STEP) * REGISTER_STEP
-    groups = REGISTERS // a_warp // (GROUP // WARP)
-    return 100 * min(WARPS, groups * (GROUP // WARP)) // WARPS
+    warps = GROUP[precision] // WARP
+    return 100 * min(WARPS, REGISTERS // a_warp // warps * warps) // WARPS
 
 
 def table_of(ptxas, precision, many, archs, folder):
@@ -113,7 +113,7 @@ def table_of(ptxas, precision, many, archs, folder):
                    r"(\d+) bytes spill loads\n.*?Used (\d+) registers([^\n]*)")
         for name, stack, stores, loads, registers, more in re.findall(pattern, said):
             shared = re.search(r"(\d+) bytes smem", more)
-            rows.append(dict(zip(COLUMNS, (name, arch, precision, many, int(registers), occupancy(int(registers)), int(stores), int(loads), int(stack),
+            rows.append(dict(zip(COLUMNS, (name, arch, precision, many, int(registers), occupancy(int(registers), precision), int(stores), int(loads), int(stack),
                                            int(shared.group(1)) if shared else 0, *arguments[name]))))
     return rows
 

@@ -163,7 +163,7 @@ static brc_card_traffic traffic_of(const sample *c, const brc_card_pass *p, int 
     }
     double fetched = 0;
     for (int g = 0; g < GROUPS; ++g)
-        if (group_sizes[g] == BRC_GPU_GROUP) fetched = grouped[g];
+        if (group_sizes[g] == (coeff == 8 ? BRC_GPU_GROUP_DOUBLE : BRC_GPU_GROUP)) fetched = grouped[g];
     return (brc_card_traffic){least, rows + own, rows + again + own + fetched, padding * p->operations};
 }
 

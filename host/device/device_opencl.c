@@ -16,7 +16,7 @@
  * crashed with wide types. */
 enum { GROUP_CPU = 64, FEWEST_OF_GROUP = 32 };
 /* What kernels of one element a work-item put aside of it in local memory (kernels/portable.h), numbers at most. */
-enum { MOST_ASIDE = 18 };
+enum { MOST_ASIDE = 27 };
 /* Elements a slice of the storage holds on a CPU: as many as a work-item, and at least these. */
 enum { SLICE_CPU = 8 };
 /* Long batches reach the device while they are still being enqueued. */
@@ -82,7 +82,7 @@ static brc_status choose_layout(brc_device *device, cl_device_id id, int lanes, 
         return BRC_FAIL(device->context, BRC_BAD_INPUT, "%d elements a work-item: expected 1, 4, 8 or 16", lanes);
     device->lanes = lanes;
     device->slice = gpu ? BRC_GPU_SLICE : lanes > SLICE_CPU ? lanes : SLICE_CPU;
-    *group = gpu ? BRC_GPU_GROUP : GROUP_CPU;
+    *group = !gpu ? GROUP_CPU : device->precision == BRC_DOUBLE ? BRC_GPU_GROUP_DOUBLE : BRC_GPU_GROUP;
     const size_t most = most_in_group(device, id);
     while (*group > most)
         *group /= 2;

@@ -2,8 +2,8 @@
 #ifndef BRC_DEVICE_GPU_LAYOUT_H
 #define BRC_DEVICE_GPU_LAYOUT_H
 
-/* Work-items a group, which bound what kernels have of registers and of local memory and share what they gather;
- * elements a slice of the storage. */
-enum { BRC_GPU_GROUP = 256, BRC_GPU_SLICE = 32 };
+/* Work-items a group, in double and in the other precisions, which bound what kernels have of registers and of local
+ * memory and share what they gather (bench/results/2026-11-27-nvidia-h200); elements a slice of the storage. */
+enum { BRC_GPU_GROUP_DOUBLE = 128, BRC_GPU_GROUP = 256, BRC_GPU_SLICE = 32 };
 
 #endif

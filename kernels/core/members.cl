@@ -67,16 +67,18 @@ LAW lane_int members_neighbour(members m, OWN(int) neighbour, int slot)
     return (has & LANE_MAKE(lane_int, NEXT)) | (~has & m.own);
 #undef NEXT
 }
-/* The same from one slot to the next: a GPU asks for the next slot's before it waits for what this one's have. */
-LAW lane_int members_first_neighbour(members m, OWN(int) neighbour)
+/* The slot, or the last. */
+LAW int members_slot(members m, int slot) { return slot < m.end ? slot : m.end - 1; }
+/* The same from one slot to that `turns` behind it: a GPU asks for those before it waits for what these have. */
+LAW lane_int members_first_neighbour(members m, OWN(int) neighbour, int turn)
 {
-    return SPLIT_LOOPS && m.begin < m.end ? members_neighbour(m, neighbour, m.begin) : m.own;
+    return SPLIT_LOOPS && m.begin < m.end ? members_neighbour(m, neighbour, members_slot(m, m.begin + turn)) : m.own;
 }
-LAW lane_int members_next_neighbour(members m, OWN(int) neighbour, int slot, lane_int *next)
+LAW lane_int members_next_neighbour(members m, OWN(int) neighbour, int slot, int turns, lane_int *next)
 {
     if (!SPLIT_LOOPS) return members_neighbour(m, neighbour, slot);
     const lane_int now = *next;
-    *next = members_neighbour(m, neighbour, slot + 1 < m.end ? slot + 1 : slot);
+    *next = members_neighbour(m, neighbour, members_slot(m, slot + turns));
     return now;
 }
 LAW lane members_row1(members m, OWN(coeff) p, int slot)

@@ -5,14 +5,12 @@
 KERNEL void advance(int n_rows, state kick, state drift, OWN(state) mass, OWN(state) force, UPDATE(state) velocity,
                     UPDATE(state) displacement)
 {
-    FOR_EACH_ROW(e, n_rows) {
-        const state per_mass = kick / mass[e];
-        for (int c = 0; c < 3; ++c) {
-            const brc_size at = (brc_size)e * 3 + c;
-            const state v = velocity[at] + per_mass * force[at];
-            velocity[at] = v;
-            displacement[at] += drift * v;
-        }
+    FOR_EACH_COMPONENT(e, c, n_rows)
+    {
+        const brc_size at = (brc_size)e * 3 + c;
+        const state v = velocity[at] + kick / mass[e] * force[at];
+        velocity[at] = v;
+        displacement[at] += drift * v;
     }
 }
 

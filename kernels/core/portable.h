@@ -255,6 +255,30 @@ typedef int aside;
 #define ASIDE(name, n) const aside name = 0
 #endif
 
+/* Numbers of rows of three, one after the other: work-items of a group that lie side by side do numbers that do, which
+ * a GPU reads and writes at once. */
+#if defined(__OPENCL_VERSION__) && W == 1
+#define FOR_EACH_COMPONENT(e, c, n)                                                                                    \
+    for (int at_ = (int)get_local_id(0), base_ = (int)get_global_id(0) - at_; at_ < 3 * (int)get_local_size(0);        \
+         at_ += (int)get_local_size(0))                                                                                \
+        for (int e = base_ + at_ / 3, c = at_ % 3; e < (n); e = (n))
+#else
+#define FOR_EACH_COMPONENT(e, c, n)                                                                                    \
+    FOR_EACH_ROW(e, n)                                                                                                 \
+        for (int c = 0; c < 3; ++c)
+#endif
+
+/* Bonds whose gathers one work-item asks for before it waits for the first, where a GPU has the registers for two
+ * (bench/results/2026-11-27-nvidia-h200); EACH_TURN: what is done for each. Sums are taken bond by bond, in the order
+ * of the slots. */
+#if defined(__OPENCL_VERSION__) && W == 1
+#define TURNS 2
+#define EACH_TURN(t) _Pragma("unroll") for (int t = 0; t < TURNS; ++t)
+#else
+#define TURNS 1
+#define EACH_TURN(t) for (int t = 0; t < TURNS; ++t)
+#endif
+
 /* In front of a loop of many turns whose loads do not depend on each other: one work-item of a GPU asks for those of n
  * turns before it waits for the first. Sums are taken in the order written. */
 #if defined(__OPENCL_VERSION__) && W == 1

@@ -11,16 +11,17 @@ typedef struct {
     lane ratio;
 } dlsm_row;
 enum { DLSM_OFFSET = 1, DLSM_RATIO = 2 };
-LAW dlsm_row dlsm_row_at(members who, int slot, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) more, int with)
+LAW dlsm_row dlsm_row_of(members who, lane_int j, int slot, OWN(coeff) area, OWN(coeff) more, int with)
 {
-    dlsm_row row = {members_neighbour(who, neighbour, slot),
-                    members_face3(who, area, slot),
-                    {LANE_ZERO, LANE_ZERO, LANE_ZERO},
-                    LANE_ZERO};
+    dlsm_row row = {j, members_face3(who, area, slot), {LANE_ZERO, LANE_ZERO, LANE_ZERO}, LANE_ZERO};
     members_ahead3(who, area, slot);
     if (with == DLSM_OFFSET) members_ahead3(who, more, slot), row.offset = members_row3(who, more, slot);
     if (with == DLSM_RATIO) members_ahead1(who, more, slot), row.ratio = members_row1(who, more, slot);
     return row;
+}
+LAW dlsm_row dlsm_row_at(members who, int slot, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) more, int with)
+{
+    return dlsm_row_of(who, members_neighbour(who, neighbour, slot), slot, area, more, with);
 }
 /* A GPU asks for the rows of the next slot before it waits for what this one gathers. */
 LAW dlsm_row dlsm_first_row(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) more, int with)
@@ -36,6 +37,14 @@ LAW dlsm_row dlsm_next_row(members who, int slot, dlsm_row *ahead, OWN(int) neig
     *ahead = dlsm_row_at(who, slot + 1 < who.end ? slot + 1 : slot, neighbour, area, more, with);
     return row;
 }
+/* In loops of several turns only neighbours are asked for ahead. Behind the last slot the last: those turns are left
+ * out. */
+LAW dlsm_row dlsm_turn_row(members who, int slot, lane_int *next, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) more,
+                           int with)
+{
+    const lane_int j = members_next_neighbour(who, neighbour, slot, TURNS, next);
+    return dlsm_row_of(who, j, TURNS > 1 ? members_slot(who, slot) : slot, area, more, with);
+}
 
 /* G = F - I [-], from H and, where faces are held, from their part [boundary block][9][C] of V G. */
 LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
@@ -44,10 +53,17 @@ LAW lane_mat3 dlsm_deformation_of(members who, OWN(int) neighbour, OWN(coeff) ar
 {
     const lane_mat3 h = lane_gather9(gradient, who.own);
     lane_mat3 sum = lane_mat3_zero();
-    dlsm_row next = dlsm_first_row(who, neighbour, area, offset, DLSM_OFFSET);
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, offset, DLSM_OFFSET);
-        sum = dlsm_add_offset(sum, lane_mat3_sub(lane_gather9(gradient, row.j), h), row.offset, row.area);
+    lane_int next[TURNS];
+    EACH_TURN(k) next[k] = members_first_neighbour(who, neighbour, k);
+    for (int slot = who.begin; slot < who.end; slot += TURNS) {
+        dlsm_row row[TURNS];
+        lane_mat3 there[TURNS];
+        EACH_TURN(k)
+        row[k] = dlsm_turn_row(who, slot + k, &next[k], neighbour, area, offset, DLSM_OFFSET);
+        EACH_TURN(k) there[k] = lane_gather9(gradient, row[k].j);
+        EACH_TURN(k)
+        if (!k || slot + k < who.end)
+            sum = dlsm_add_offset(sum, lane_mat3_sub(there[k], h), row[k].offset, row[k].area);
     }
     const lane inv_v = members_number(who, inv_volume);
     const lane_mat3 g = dlsm_divergence_gradient(h, sum, inv_v);
@@ -59,20 +75,18 @@ LAW lane_mat3 dlsm_first_piola(lane_mat3 g, lane lambda, lane mu, int finite)
     return push_forward(g, svk_stress(green_strain(g, finite), lambda, mu), finite);
 }
 
-/* What pass 3 puts aside (portable.h): M of the element, and V P - q. */
-enum { ASIDE_M = 0, ASIDE_OWN = 9, ASIDE_FLUX = 18 };
+/* What pass 3 puts aside (portable.h): M and H of the element, and V P - q. */
+enum { ASIDE_M = 0, ASIDE_OWN = 9, ASIDE_H = 18, ASIDE_FLUX = 27 };
 
 /* What the bond in one slot adds in pass 3: to the sums of gradients ... */
 LAW dlsm_flux_sums dlsm_flux_gradients_at(aside room, dlsm_row row, dlsm_flux_sums sums, GATHER(state) displacement,
-                                          GATHER(coeff) gradient, GATHER(coeff) modulus, GATHER(coeff) ell_of,
-                                          state_vec3 u, lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite,
-                                          int plain)
+                                          lane_mat3 h_j, GATHER(coeff) modulus, GATHER(coeff) ell_of, state_vec3 u,
+                                          lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite, int plain)
 {
     const lane_int j = row.j;
     const lane_vec3 s = row.area;
-    const lane_mat3 h_j = lane_gather9(gradient, j);
     const lane_vec3 x = lane_vec3_scale(REAL(0.5) * row.ratio, s); /* R / 2 [m] */
-    const lane_vec3 h_x = lane_mat3_mul_vec(h, x), h_j_x = lane_mat3_mul_vec(h_j, x),
+    const lane_vec3 h_x = lane_mat3_mul_vec(aside_get9(room, ASIDE_H, h), x), h_j_x = lane_mat3_mul_vec(h_j, x),
                     m_x = lane_mat3_mul_vec(aside_get9(room, ASIDE_M, m), x);
 #if BRC_MANY_MATERIALS
     const lane weight = lane_min(gather_component(modulus, j), k) / k;
@@ -89,10 +103,10 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(aside room, dlsm_row row, dlsm_flux_su
     return dlsm_flux_add_bond(sums, r, mr, s);
 }
 /* ... and to that of stresses. */
-LAW dlsm_flux_sums dlsm_flux_stress_at(dlsm_flux_sums sums, lane_int j, lane_vec3 area, lane_vec3 offset,
-                                       GATHER(coeff) stress, lane_mat3 p)
+LAW dlsm_flux_sums dlsm_flux_stress_at(dlsm_flux_sums sums, lane_vec3 area, lane_vec3 offset, lane_mat3 p_j,
+                                       lane_mat3 p)
 {
-    return dlsm_flux_add_stress(sums, lane_mat3_add(p, lane_gather9(stress, j)), area, offset);
+    return dlsm_flux_add_stress(sums, lane_mat3_add(p, p_j), area, offset);
 }
 
 /* Bonds of pass 3: those of gradients, and those of stresses in the same loop where rows are read once (SPLIT_LOOPS).
@@ -104,14 +118,22 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, aside room, OWN(int) neighbour
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const state_vec3 u = state_gather3(displacement, who.own); /* counts with many materials alone */
-    dlsm_row next = dlsm_first_row(who, neighbour, area, ratio, DLSM_RATIO);
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, ratio, DLSM_RATIO);
-        sums = dlsm_flux_gradients_at(room, row, sums, displacement, gradient, modulus, ell_of, u, h, m, k, ell_one,
-                                      finite, plain);
-        if (!SPLIT_LOOPS) {
-            members_ahead3(who, offset, slot);
-            sums = dlsm_flux_stress_at(sums, row.j, row.area, members_row3(who, offset, slot), stress, p);
+    lane_int next[TURNS];
+    EACH_TURN(t) next[t] = members_first_neighbour(who, neighbour, t);
+    for (int slot = who.begin; slot < who.end; slot += TURNS) {
+        dlsm_row row[TURNS];
+        lane_mat3 there[TURNS];
+        EACH_TURN(t) row[t] = dlsm_turn_row(who, slot + t, &next[t], neighbour, area, ratio, DLSM_RATIO);
+        EACH_TURN(t) there[t] = lane_gather9(gradient, row[t].j);
+        EACH_TURN(t)
+        if (!t || slot + t < who.end) {
+            sums = dlsm_flux_gradients_at(room, row[t], sums, displacement, there[t], modulus, ell_of, u, h, m, k,
+                                          ell_one, finite, plain);
+            if (!SPLIT_LOOPS) {
+                members_ahead3(who, offset, slot);
+                sums = dlsm_flux_stress_at(sums, row[t].area, members_row3(who, offset, slot),
+                                           lane_gather9(stress, row[t].j), p);
+            }
         }
     }
     return sums;
@@ -123,18 +145,24 @@ LAW lane_mat3 dlsm_flux_own_of(members who, OWN(int) neighbour, OWN(coeff) area,
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const lane_mat3 p = lane_gather9(stress, who.own);
-    dlsm_row next = dlsm_first_row(who, neighbour, area, offset, DLSM_OFFSET);
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, offset, DLSM_OFFSET);
-        sums = dlsm_flux_stress_at(sums, row.j, row.area, row.offset, stress, p);
+    lane_int next[TURNS];
+    EACH_TURN(k) next[k] = members_first_neighbour(who, neighbour, k);
+    for (int slot = who.begin; slot < who.end; slot += TURNS) {
+        dlsm_row row[TURNS];
+        lane_mat3 there[TURNS];
+        EACH_TURN(k)
+        row[k] = dlsm_turn_row(who, slot + k, &next[k], neighbour, area, offset, DLSM_OFFSET);
+        EACH_TURN(k) there[k] = lane_gather9(stress, row[k].j);
+        EACH_TURN(k)
+        if (!k || slot + k < who.end) sums = dlsm_flux_stress_at(sums, row[k].area, row[k].offset, there[k], p);
     }
     return dlsm_flux_own(p, REAL(1) / members_number(who, inv_volume), sums.q);
 }
 
 /* Pass 3: B [Pa] [n][9]; with many materials the bond part [beta/(1 + tau) M - H]/2 apart. ratio q = L/S [slot][C];
  * held_moment [block][9][C]: what held faces and tractions add to Q. One loop leaves out the terms of ell, 0 for nu >=
- * 0 (one material). Where loops are split, that of gradients holds H and its two sums alone: M and V P - q are aside,
- * and what the strain of H is made of is not kept for what follows it. */
+ * 0 (one material). Where loops are split, that of gradients holds its two sums alone: H, M and V P - q are aside, and
+ * what the strain of H is made of is not kept for what follows it. */
 LAW lane_mat3 dlsm_flux_of(members who, aside room, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
                            OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
                            OWN(coeff) inv_shape, OWN(coeff) inv_volume, OWN(int) boundary, OWN(coeff) held_moment,
@@ -149,7 +177,7 @@ LAW lane_mat3 dlsm_flux_of(members who, aside room, OWN(int) neighbour, OWN(coef
     dlsm_flux_sums sums;
     dlsm_flux_couples couples;
 #define SUMS(finite, plain)                                                                                            \
-    m = dlsm_compaction(h, ell, finite), aside_put9(room, ASIDE_M, m),                                                 \
+    m = dlsm_compaction(h, ell, finite), aside_put9(room, ASIDE_M, m), aside_put9(room, ASIDE_H, h),                   \
     sums = dlsm_flux_sums_of(who, room, neighbour, area, offset, ratio, displacement, gradient, stress, modulus,       \
                              ell_of, h, p, m, k, ell_one, finite, plain),                                              \
     h = SPLIT_LOOPS ? lane_gather9_again(gradient, who.own) : h,                                                       \

@@ -6,10 +6,15 @@ LAW void dlsm_gradient_of(members who, OWN(int) neighbour, OWN(int) ahead, OWN(c
     members_states_later(who, displacement, 3, ahead);
     const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
-    dlsm_row next = dlsm_first_row(who, neighbour, area, area, 0);
-    for (int slot = who.begin; slot < who.end; ++slot) {
-        const dlsm_row row = dlsm_next_row(who, slot, &next, neighbour, area, area, 0);
-        a = dlsm_add_jump(a, state_vec3_difference(state_gather3(displacement, row.j), u), row.area);
+    lane_int next[TURNS];
+    EACH_TURN(k) next[k] = members_first_neighbour(who, neighbour, k);
+    for (int slot = who.begin; slot < who.end; slot += TURNS) {
+        dlsm_row row[TURNS];
+        state_vec3 u_j[TURNS];
+        EACH_TURN(k) row[k] = dlsm_turn_row(who, slot + k, &next[k], neighbour, area, area, 0);
+        EACH_TURN(k) u_j[k] = state_gather3(displacement, row[k].j);
+        EACH_TURN(k)
+        if (!k || slot + k < who.end) a = dlsm_add_jump(a, state_vec3_difference(u_j[k], u), row[k].area);
     }
     members_store9(who, gradient, lane_mat3_mul_sym(a, members_block6(who, inv_shape)));
 }

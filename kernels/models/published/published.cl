@@ -7,9 +7,9 @@ LAW lane_mat3 published_fit(members who, OWN(int) neighbour, OWN(coeff) branch, 
 {
     const state_vec3 u = state_gather3(displacement, who.own);
     lane_mat3 a = lane_mat3_zero();
-    lane_int next = members_first_neighbour(who, neighbour);
+    lane_int next = members_first_neighbour(who, neighbour, 0);
     for (int slot = who.begin; slot < who.end; ++slot) {
-        const lane_int j = members_next_neighbour(who, neighbour, slot, &next);
+        const lane_int j = members_next_neighbour(who, neighbour, slot, 1, &next);
         members_ahead3(who, branch, slot);
         lane_vec3 r = members_row3(who, branch, slot);
         const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);

@@ -63,9 +63,9 @@ KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(i
         const published_own own = published_own_of(who.own, displacement, orientation, strain);
         lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
         lane largest = LANE_ZERO;
-        lane_int next = members_first_neighbour(who, neighbour);
+        lane_int next = members_first_neighbour(who, neighbour, 0);
         for (int slot = who.begin; slot < who.end; ++slot) {
-            const lane_int j = members_next_neighbour(who, neighbour, slot, &next);
+            const lane_int j = members_next_neighbour(who, neighbour, slot, 1, &next);
             const published_bond b =
                 published_bond_at(who, slot, j, own, branch, area, displacement, orientation, strain, lambda_one,
                                   mu_one, young_one, rotation_factor, couple, lame_of, 1);
