@@ -31,6 +31,13 @@ brc_status brc_machine_file_write(brc_context *context, int file, const void *da
     return BRC_OK;
 }
 
+brc_status brc_machine_file_skip(brc_context *context, int file, int64_t bytes)
+{
+    const off_t end = lseek(file, (off_t)bytes, SEEK_CUR);
+    if (end >= 0 && ftruncate(file, end) == 0) return BRC_OK;
+    return BRC_FAIL(context, BRC_NO_MEMORY, "a file in memory for ranks cannot grow: %s", strerror(errno));
+}
+
 brc_status brc_machine_file_place(brc_context *context, int file, const void *data, int64_t bytes)
 {
     if (pwrite(file, data, (size_t)bytes, 0) == bytes) return BRC_OK;
