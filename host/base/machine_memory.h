@@ -1,5 +1,6 @@
 /* Memory that the ranks (ranks.h) of one machine share: what its first rank has written, the others see; what one of
- * them writes later is its own (pages are copied then). Linux: a file without a name in memory. */
+ * them writes later is its own (pages are copied then). Linux: a file without a name in memory, or on a disk (spill.h).
+ */
 #ifndef BRC_BASE_MACHINE_MEMORY_H
 #define BRC_BASE_MACHINE_MEMORY_H
 

@@ -1,5 +1,6 @@
 """A domain file under ranks: the bytes of a run that builds the same, and nobody holds what is in the file: neither a rank, nor the plain
-program, nor the memory that ranks share. A body that is moved is read; a file that is cut off ends the run with one sentence."""
+program, nor the memory that ranks share. A body that is moved is read; a file that is cut off ends the run with one sentence. The same
+where the domain is built and memory spills to a disk (BRECCIA_SPILL)."""
 import filecmp
 import os
 import subprocess
@@ -22,14 +23,18 @@ def expect(condition, sentence):
         FAILURES.append(sentence)
 
 
-def run(n, folder, scene, *words):
+def start(command, **more):
     """Most bytes of a process, by kind of page."""
-    command = [PLAIN] if n == 1 else under.LAUNCH + ["-n", str(n), PROGRAM]
-    process = subprocess.Popen([*command, "run", scene, "-o", folder, *words, *SHORT], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                               text=True, env=dict(os.environ, OMP_NUM_THREADS="1"))
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env=dict(os.environ, OMP_NUM_THREADS="1", **more))
     most = under.watch(process, ["Anonymous", "Pss_Shmem"])
     assert process.returncode == 0, process.stderr.read()
     return most
+
+
+def run(n, folder, scene, *words, **more):
+    command = [PLAIN] if n == 1 else under.LAUNCH + ["-n", str(n), PROGRAM]
+    return start([*command, "run", scene, "-o", folder, *words, *SHORT], **more)
 
 
 def same(one, other):
@@ -64,6 +69,14 @@ with tempfile.TemporaryDirectory() as temporary:
     ranks = run(3, "read-3", "file.yaml")
     same("built", "read-3")
     expect(ranks["Pss_Shmem"] < 0.1 * whole, f"3 ranks share {ranks['Pss_Shmem'] / whole:.3f} of it in memory (0.1 asked)")
+    os.mkdir("spill")
+    spills = {"BRECCIA_SPILL": os.path.abspath("spill")}
+    build = start([PLAIN, "build", SCENE, "-o", "again.h5", *CELLS], **spills)
+    expect(filecmp.cmp("plate.h5", "again.h5", shallow=False) and build["Anonymous"] < 0.5 * whole,
+           f"a domain that spills while it is built: {build['Anonymous'] / whole:.2f} of the file is held (0.5 asked)")
+    spilled = run(2, "spilled-2", SCENE, *CELLS, **spills)
+    same("built", "spilled-2")
+    expect(spilled["Pss_Shmem"] < 0.1 * whole and not os.listdir("spill"), "ranks that build and spill share none of it in memory")
     run(1, "moved", "moved.yaml")
     run(2, "moved-2", "moved.yaml")
     same("moved", "moved-2")
