@@ -1,6 +1,7 @@
 #include "machine_memory.h"
 #include "memory.h"
 #include "ranks.h"
+#include "spill.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -11,8 +12,10 @@
 
 brc_status brc_machine_file(brc_context *context, int *file)
 {
-    *file = memfd_create("breccia", MFD_CLOEXEC);
-    if (*file < 0) return BRC_FAIL(context, BRC_NO_MEMORY, "no file in memory for ranks: %s", strerror(errno));
+    *file = brc_spill_folder() ? brc_spill_file() : memfd_create("breccia", MFD_CLOEXEC);
+    if (*file < 0)
+        return BRC_FAIL(context, BRC_NO_MEMORY, "no file in %s for ranks: %s",
+                        brc_spill_folder() ? brc_spill_folder() : "memory", strerror(errno));
     return BRC_OK;
 }
 
@@ -29,6 +32,13 @@ brc_status brc_machine_file_write(brc_context *context, int file, const void *da
         bytes -= n;
     }
     return BRC_OK;
+}
+
+brc_status brc_machine_file_skip(brc_context *context, int file, int64_t bytes)
+{
+    const off_t end = lseek(file, (off_t)bytes, SEEK_CUR);
+    if (end >= 0 && ftruncate(file, end) == 0) return BRC_OK;
+    return BRC_FAIL(context, BRC_NO_MEMORY, "a file in memory for ranks cannot grow: %s", strerror(errno));
 }
 
 brc_status brc_machine_file_place(brc_context *context, int file, const void *data, int64_t bytes)

@@ -1,5 +1,6 @@
 /* Memory that the ranks (ranks.h) of one machine share: what its first rank has written, the others see; what one of
- * them writes later is its own (pages are copied then). Linux: a file without a name in memory. */
+ * them writes later is its own (pages are copied then). Linux: a file without a name in memory, or on a disk (spill.h).
+ */
 #ifndef BRC_BASE_MACHINE_MEMORY_H
 #define BRC_BASE_MACHINE_MEMORY_H
 
@@ -26,6 +27,8 @@ brc_status brc_machine_memory_lay(brc_context *context, int file, void *at);
 brc_status brc_machine_file(brc_context *context, int *file);
 /* Append bytes. BRC_NO_MEMORY. */
 brc_status brc_machine_file_write(brc_context *context, int file, const void *data, int64_t bytes);
+/* Append bytes that take no memory until they are written. BRC_NO_MEMORY. */
+brc_status brc_machine_file_skip(brc_context *context, int file, int64_t bytes);
 /* Put bytes over its first ones. BRC_NO_MEMORY. */
 brc_status brc_machine_file_place(brc_context *context, int file, const void *data, int64_t bytes);
 

@@ -1,6 +1,7 @@
 /* Aligned, zeroed, counted host memory. A 64-byte header in front of each block keeps its size, so that freeing and
  * resizing need no second argument. */
 #include "memory.h"
+#include "spill.h"
 #include <malloc.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -10,7 +11,9 @@
 #include <unistd.h>
 
 #define ALIGNMENT ((size_t)64)
-#define ELSEWHERE ((size_t)1) /* second word of a head: the block is not of the heap */
+/* Second word of a head: the block is not of the heap. */
+#define ELSEWHERE ((size_t)1)
+#define SPILLED ((size_t)2)
 
 /* Statistics of the process, not state that any computation reads. */
 static atomic_int_least64_t held_bytes;
@@ -51,16 +54,25 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size
     if (bytes == 0)
         return BRC_FAIL(context, BRC_NO_MEMORY, "%s: %lld items of %zu bytes are more than any machine addresses", what,
                         (long long)n, size);
-    char *raw = aligned_alloc(ALIGNMENT, bytes + ALIGNMENT);
+    char reason[BRC_SPILL_REASON];
+    const bool spills = bytes >= BRC_LEAST_SPILL && brc_spill_folder();
+    char *raw = spills ? brc_spill_take(bytes + ALIGNMENT, reason) : aligned_alloc(ALIGNMENT, bytes + ALIGNMENT);
+    if (!raw && spills)
+        return BRC_FAIL(context, BRC_NO_MEMORY,
+                        "%s: no memory for %lld items of %zu bytes (%.3g GB; %.3g GB are held) in %s (BRECCIA_SPILL): "
+                        "%s; name a folder on a local disk with more room",
+                        what, (long long)n, size, (double)bytes * 1e-9, (double)brc_memory_held() * 1e-9,
+                        brc_spill_folder(), reason);
     if (!raw)
         return BRC_FAIL(
             context, BRC_NO_MEMORY,
             "%s: no memory for %lld items of %zu bytes (%.3g GB; %.3g GB are held); use fewer elements or a "
             "machine with more memory",
             what, (long long)n, size, (double)bytes * 1e-9, (double)brc_memory_held() * 1e-9);
-    memset(raw, 0, bytes + ALIGNMENT);
+    if (!spills) memset(raw, 0, bytes + ALIGNMENT);
     *out = raw + ALIGNMENT;
-    *size_of(*out) = bytes;
+    size_of(*out)[0] = bytes;
+    size_of(*out)[1] = spills ? SPILLED : 0;
     count((int64_t)bytes);
     return BRC_OK;
 }
@@ -100,7 +112,10 @@ void brc_memory_free(void *block)
     size_t *const size = size_of(block);
     if (size[1] == ELSEWHERE) return;
     count(-(int64_t)*size);
-    free(size);
+    if (size[1] == SPILLED)
+        brc_spill_give((char *)size, *size + ALIGNMENT);
+    else
+        free(size);
 }
 
 void brc_memory_trim(void)
@@ -115,7 +130,8 @@ void brc_memory_forget(void *at, int64_t bytes)
     const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
     const uintptr_t first = ((uintptr_t)at + page - 1) / page * page,
                     end = ((uintptr_t)at + (uintptr_t)bytes) / page * page;
-    if (first < end) (void)madvise((void *)first, (size_t)(end - first), MADV_DONTNEED); /* a wish */
+    const int advice = brc_spill_has(at) ? MADV_REMOVE : MADV_DONTNEED;
+    if (first < end) (void)madvise((void *)first, (size_t)(end - first), advice); /* a wish */
 }
 
 void brc_memory_end_scope(void *variable)

@@ -10,6 +10,22 @@
 #include "../base/memory.h"
 #include <string.h>
 
+/* Number and pose of the body. Pages of the file are kept where nothing changes. */
+static brc_status place_body(brc_context *context, const brc_body *body, int32_t index, brc_domain *d)
+{
+    bool other = false;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        other = other || d->body[e] != index;
+    for (int k = 0; k < 3; ++k)
+        other = other || body->rotation[k] != 0.0 || body->translation[k] != 0.0;
+    if (!other) return BRC_OK;
+    BRC_TRY(brc_domain_take_pages(context, d));
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        d->body[e] = index;
+    brc_pose_apply(body->shape.origin, body->rotation, body->translation, d);
+    return BRC_OK;
+}
+
 static brc_status read_body(brc_context *context, const brc_scene *scene, int32_t index, brc_domain **out)
 {
     const brc_body *body = &scene->bodies[index];
@@ -18,8 +34,7 @@ static brc_status read_body(brc_context *context, const brc_scene *scene, int32_
     const brc_status status = brc_domain_read(context, path ? path : body->domain_file, out);
     brc_memory_free(path);
     if (status != BRC_OK) return status;
-    for (int64_t e = 0; e < (*out)->n_elements; ++e)
-        (*out)->body[e] = index;
+    BRC_TRY(place_body(context, body, index, *out));
     for (int64_t e = 0; e < (*out)->n_elements; ++e)
         if ((*out)->region[e] < 0 || (*out)->region[e] > brc_body_n_regions(body))
             return BRC_FAIL(
@@ -27,7 +42,6 @@ static brc_status read_body(brc_context *context, const brc_scene *scene, int32_
                 "body '%s': %s holds region %d, the scene gives the body %d region(s); state them as when the "
                 "file was built",
                 body->name, body->domain_file, (*out)->region[e], brc_body_n_regions(body));
-    brc_pose_apply(body->shape.origin, body->rotation, body->translation, *out);
     return brc_quality_judge(context, *out, scene->n_limits, scene->limits);
 }
 

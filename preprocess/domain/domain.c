@@ -45,6 +45,8 @@ brc_status brc_domain_each_block(brc_domain *d, bool down, brc_domain_visit visi
                             (void **)&d->free_polygon_start,
                             (void **)&d->free_polygon,
                             (void **)&d->provenance,
+                            (void **)&d->pages.path,
+                            (void **)&d->pages.range,
                             (void **)&d->wall_name,
                             (void **)&d->sets};
     if (!down) BRC_TRY(each_inner_block(d, visit, self));
@@ -64,9 +66,36 @@ void brc_domain_free(brc_domain **domain)
 {
     if (!domain || !*domain) return;
     (void)brc_domain_each_block(*domain, false, free_block, NULL);
-    brc_machine_memory_free(&(*domain)->shared);
+    brc_machine_memory_free(&(*domain)->elsewhere);
     brc_memory_free(*domain);
     *domain = NULL;
+}
+
+typedef struct taking {
+    brc_context *context;
+    const brc_domain *domain;
+} taking;
+
+static brc_status take_block(void *self, void **block)
+{
+    const taking *t = self;
+    const int64_t k = brc_file_pages_find(&t->domain->pages, &t->domain->elsewhere, *block);
+    void *own = NULL;
+    if (k < 0) return BRC_OK;
+    const int64_t bytes = t->domain->pages.range[k].bytes;
+    BRC_TRY(brc_memory_allocate(t->context, &own, bytes, 1, "domain of a file"));
+    memcpy(own, *block, (size_t)bytes);
+    *block = own;
+    return BRC_OK;
+}
+
+brc_status brc_domain_take_pages(brc_context *context, brc_domain *domain)
+{
+    taking t = {context, domain};
+    if (domain->pages.n == 0) return BRC_OK;
+    BRC_TRY(brc_domain_each_block(domain, true, take_block, &t));
+    domain->pages.n = 0;
+    return BRC_OK;
 }
 
 brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name)

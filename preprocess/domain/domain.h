@@ -8,8 +8,7 @@
 #ifndef BRC_PREPROCESS_DOMAIN_H
 #define BRC_PREPROCESS_DOMAIN_H
 
-#include "../../host/base/machine_memory.h"
-#include "../../host/base/status.h"
+#include "../../host/base/file_pages.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -106,7 +105,8 @@ typedef struct brc_domain {
     brc_quality quality;
     char *provenance; /* how it was made, one line of text; owned */
 
-    brc_machine_memory shared; /* the arrays lie there, for all ranks of the machine (domain_ranks.h); else none */
+    brc_machine_memory elsewhere; /* arrays lie there: of all ranks of the machine (domain_ranks.h), pages of a file */
+    brc_file_pages pages;         /* ... and those of a domain file; what is written to them is not in the file */
 } brc_domain;
 
 /* Free a domain and all its arrays; accepts a pointer to NULL; sets *domain to NULL. */
@@ -115,6 +115,8 @@ void brc_domain_free(brc_domain **domain);
  * pointer is kept. Stops at the first failure. */
 typedef brc_status (*brc_domain_visit)(void *self, void **block);
 brc_status brc_domain_each_block(brc_domain *domain, bool down, brc_domain_visit visit, void *self);
+/* Arrays that are pages of a file become the domain's own: before many of them are written. BRC_NO_MEMORY. */
+brc_status brc_domain_take_pages(brc_context *context, brc_domain *domain);
 /* Append a copy of the name to the walls; wall_name has room for it. BRC_NO_MEMORY. */
 brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name);
 /* Index of the named set, -1 when there is none. */

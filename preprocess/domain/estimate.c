@@ -1,6 +1,7 @@
 /* Faces and corners per element as fitted to built domains (docs/reference/domain.md), times the sizes of domain.h. */
 #include "estimate.h"
 
+#include "../../host/base/spill.h"
 #include "../cells/seeds.h"
 
 #include <math.h>
@@ -58,11 +59,13 @@ double brc_estimate_elements(const brc_solid *solid, const brc_fill *fill)
 
 brc_status brc_estimate_check_memory(brc_context *context, double n, double bytes)
 {
-    const double physical = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    const double physical = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) + brc_spill_room();
     const double needed = BUILD_OVER_DOMAIN * bytes;
     if (physical <= 0.0 || needed <= physical) return BRC_OK;
-    return BRC_FAIL(context, BRC_BAD_INPUT,
-                    "fill: building %.3g elements needs about %.3g GB, this machine has %.3g GB; ask for at most %.2g "
-                    "elements",
-                    n, needed * 1e-9, physical * 1e-9, n * physical / needed);
+    return BRC_FAIL(
+        context, BRC_BAD_INPUT,
+        "fill: building %.3g elements needs about %.3g GB, this machine has %.3g GB%s; ask for at most %.2g "
+        "elements",
+        n, needed * 1e-9, physical * 1e-9, brc_spill_folder() ? " with the folder of BRECCIA_SPILL" : "",
+        n * physical / needed);
 }

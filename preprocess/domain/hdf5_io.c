@@ -47,6 +47,7 @@ hid_t brc_h5_create_file(const char *path)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_alignment(access, BRC_LEAST_FILE_RANGE, BRC_FILE_PAGE);
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     H5Pset_obj_track_times(creation, 0);
     const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, creation, access);
@@ -64,12 +65,16 @@ hid_t brc_h5_create_group(hid_t file, const char *name)
     return group;
 }
 
-void brc_h5_close_broken(hid_t file)
+int brc_h5_descriptor(hid_t file)
 {
     void *handle = NULL;
-    const int nowhere = memfd_create("discarded", 0);
-    if (nowhere >= 0 && H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) >= 0 && handle)
-        dup2(nowhere, *(const int *)handle);
+    return H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) >= 0 && handle ? *(const int *)handle : -1;
+}
+
+void brc_h5_close_broken(hid_t file)
+{
+    const int nowhere = memfd_create("discarded", 0), handle = brc_h5_descriptor(file);
+    if (nowhere >= 0 && handle >= 0) dup2(nowhere, handle);
     if (nowhere >= 0) close(nowhere);
     H5Fclose(file);
 }
@@ -79,9 +84,15 @@ static hid_t memory_type(brc_h5_kind kind)
     return kind == BRC_H5_DOUBLE ? H5T_NATIVE_DOUBLE : kind == BRC_H5_INT64 ? H5T_NATIVE_INT64 : H5T_NATIVE_INT32;
 }
 
-static hid_t file_type(brc_h5_kind kind)
+/* Of attributes, and of arrays of older files. */
+static hid_t long_type(brc_h5_kind kind)
 {
     return kind == BRC_H5_DOUBLE ? H5T_IEEE_F64LE : H5T_STD_I64LE;
+}
+
+static hid_t file_type(brc_h5_kind kind)
+{
+    return kind == BRC_H5_INT32 ? H5T_STD_I32LE : long_type(kind);
 }
 
 static size_t item_size(brc_h5_kind kind)
@@ -89,7 +100,8 @@ static size_t item_size(brc_h5_kind kind)
     return kind == BRC_H5_INT32 ? sizeof(int32_t) : sizeof(int64_t);
 }
 
-/* Checksum of n stored words: each is mixed in by a multiplication with an odd constant, so order counts. */
+/* Checksum of n numbers as words of 64 bits: each is mixed in by a multiplication with an odd constant, so order
+ * counts. */
 static int64_t checksum(brc_h5_kind kind, const void *data, int64_t n)
 {
     uint64_t sum = 0x9e3779b97f4a7c15u;
@@ -110,7 +122,7 @@ brc_status brc_h5_write_numbers(brc_context *context, hid_t place, const char *p
 {
     const hsize_t size = (hsize_t)n;
     const hid_t space = n == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL);
-    const hid_t attribute = H5Acreate2(place, what, file_type(kind), space, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t attribute = H5Acreate2(place, what, long_type(kind), space, H5P_DEFAULT, H5P_DEFAULT);
     brc_status status = BRC_OK;
     if (attribute < 0 || H5Awrite(attribute, memory_type(kind), data) < 0)
         status = brc_h5_fail(context, BRC_FILE_FAILED, path, what);
@@ -129,7 +141,7 @@ brc_status brc_h5_read_numbers(brc_context *context, hid_t place, const char *pa
                         "%s: the attribute '%s' is missing, this is no domain file of this version", path, what);
     const hid_t space = H5Aget_space(attribute), type = H5Aget_type(attribute);
     const hssize_t found = H5Sget_simple_extent_npoints(space);
-    const bool right = H5Tequal(type, file_type(kind)) > 0 && found == n;
+    const bool right = H5Tequal(type, long_type(kind)) > 0 && found == n;
     brc_status status = BRC_OK;
     if (!right)
         status = BRC_FAIL(context, BRC_BAD_INPUT,
@@ -212,24 +224,27 @@ static brc_status check_array(brc_context *context, hid_t set, const char *path,
     const hid_t type = H5Dget_type(set), space = H5Dget_space(set);
     hsize_t size[2] = {0, 1};
     const int rank = H5Sget_simple_extent_ndims(space);
+    const hsize_t item = H5Tget_size(type);
     brc_status status = BRC_OK;
-    if (H5Tequal(type, file_type(kind)) <= 0) {
-        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' has another type, expected 64-bit %s", path, name,
-                          kind == BRC_H5_DOUBLE ? "floating point" : "integers");
+    if (H5Tequal(type, file_type(kind)) <= 0 && H5Tequal(type, long_type(kind)) <= 0) {
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' has another type, expected %s", path, name,
+                          kind == BRC_H5_DOUBLE  ? "64-bit floating point"
+                          : kind == BRC_H5_INT64 ? "64-bit integers"
+                                                 : "32-bit or 64-bit integers");
     } else if (rank != (width == 1 ? 1 : 2) || H5Sget_simple_extent_dims(space, size, NULL) < 0 ||
                size[1] != (hsize_t)width || (*rows >= 0 && size[0] != (hsize_t)*rows)) {
         status =
             BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' has the shape [%llu][%llu], expected [%lld][%lld]", path, name,
                      (unsigned long long)size[0], (unsigned long long)size[1], (long long)*rows, (long long)width);
-    } else if (H5Dget_storage_size(set) != size[0] * size[1] * 8) {
+    } else if (H5Dget_storage_size(set) != size[0] * size[1] * item) {
         status =
             BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' is cut off: %llu bytes are stored, expected %llu", path, name,
-                     (unsigned long long)H5Dget_storage_size(set), (unsigned long long)(size[0] * size[1] * 8));
+                     (unsigned long long)H5Dget_storage_size(set), (unsigned long long)(size[0] * size[1] * item));
     }
     hsize_t file_size = 0;
     const hid_t file = H5Iget_file_id(set);
     if (status == BRC_OK &&
-        (H5Fget_filesize(file, &file_size) < 0 || size[0] > file_size || size[0] * size[1] * 8 > file_size))
+        (H5Fget_filesize(file, &file_size) < 0 || size[0] > file_size || size[0] * size[1] * item > file_size))
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' claims %llu rows, more than the file holds", path, name,
                           (unsigned long long)size[0]);
     if (file >= 0) H5Fclose(file);
@@ -239,25 +254,40 @@ static brc_status check_array(brc_context *context, hid_t set, const char *path,
     return status;
 }
 
-brc_status brc_h5_read_array(brc_context *context, hid_t place, const char *path, const char *name, brc_h5_kind kind,
-                             int64_t rows, int64_t width, void **data, int64_t *found)
+/* Where the array lies in the file as it does in memory, in one piece; NULL: nowhere, or not worth it. */
+static void *find_pages(hid_t set, brc_h5_kind kind, int64_t n, const brc_h5_pages *pages)
+{
+    const hid_t type = H5Dget_type(set);
+    const haddr_t offset = H5Dget_offset(set); /* none of what is in pieces, packed or in another file */
+    const bool same = H5Tequal(type, memory_type(kind)) > 0 && offset != HADDR_UNDEF && offset <= INT64_MAX;
+    H5Tclose(type);
+    return same ? brc_file_pages_add(pages->file, (int64_t)offset, n * (int64_t)item_size(kind), pages->memory,
+                                     pages->pages)
+                : NULL;
+}
+
+/* pages: may be NULL. */
+static brc_status take_array(brc_context *context, hid_t place, const char *path, const char *name, brc_h5_kind kind,
+                             int64_t *rows, int64_t width, const brc_h5_pages *pages, void **data)
 {
     *data = NULL;
     const hid_t set = H5Dopen2(place, name, H5P_DEFAULT);
     if (set < 0) return BRC_FAIL(context, BRC_BAD_INPUT, "%s: '%s' is missing or unreadable", path, name);
     int64_t sum = 0;
-    brc_status status = check_array(context, set, path, name, kind, &rows, width);
+    brc_status status = check_array(context, set, path, name, kind, rows, width);
     if (status != BRC_OK) goto cleanup;
-    BRC_TRY_OR(cleanup, brc_memory_allocate(context, data, rows * width, item_size(kind), name));
-    if (rows > 0 && H5Dread(set, memory_type(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, *data) < 0) {
+    if (pages) *data = find_pages(set, kind, *rows * width, pages);
+    const bool mapped = *data != NULL;
+    if (!mapped) BRC_TRY_OR(cleanup, brc_memory_allocate(context, data, *rows * width, item_size(kind), name));
+    if (!mapped && *rows > 0 && H5Dread(set, memory_type(kind), H5S_ALL, H5S_ALL, H5P_DEFAULT, *data) < 0) {
         status = brc_h5_fail(context, BRC_BAD_INPUT, path, name);
         goto cleanup;
     }
     BRC_TRY_OR(cleanup, brc_h5_read_numbers(context, set, path, "checksum", BRC_H5_INT64, 1, &sum));
-    if (sum != checksum(kind, *data, rows * width))
+    if (sum != checksum(kind, *data, *rows * width))
         status = BRC_FAIL(context, BRC_BAD_INPUT,
                           "%s: '%s' was damaged (its checksum is wrong); build the domain again", path, name);
-    if (found) *found = rows;
+    if (mapped) brc_memory_forget(*data, *rows * width * (int64_t)item_size(kind));
 cleanup:
     H5Dclose(set);
     if (status != BRC_OK) {
@@ -265,4 +295,18 @@ cleanup:
         *data = NULL;
     }
     return status;
+}
+
+brc_status brc_h5_read_array(brc_context *context, hid_t place, const char *path, const char *name, brc_h5_kind kind,
+                             int64_t rows, int64_t width, void **data, int64_t *found)
+{
+    BRC_TRY(take_array(context, place, path, name, kind, &rows, width, NULL, data));
+    if (found) *found = rows;
+    return BRC_OK;
+}
+
+brc_status brc_h5_map_array(brc_context *context, hid_t place, const char *path, const char *name, brc_h5_kind kind,
+                            int64_t rows, int64_t width, const brc_h5_pages *pages, void **data)
+{
+    return take_array(context, place, path, name, kind, &rows, width, pages, data);
 }

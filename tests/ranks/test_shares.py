@@ -11,7 +11,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 import under
 
 PROGRAM = under.need("bin/breccia-mpi")
@@ -32,42 +31,14 @@ def line(folder, n_cells, duration):
     return ["run", SCENE, "-o", folder, *[word for one in sets for word in ("--set", one)]]
 
 
-def resident(process):
-    """Proportional bytes of the process; 0 once it has ended."""
-    try:
-        with open(f"/proc/{process}/smaps_rollup", encoding="ascii") as file:
-            return 1024 * int(re.search(r"^Pss:\s+(\d+)", file.read(), re.M).group(1))
-    except (OSError, AttributeError):
-        return 0
-
-
-def below(process):
-    """The process and all that it started."""
-    found, children = [], {}
-    for name in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            with open(f"/proc/{name}/stat", encoding="ascii", errors="replace") as file:
-                children.setdefault(int(file.read().rsplit(")", 1)[1].split()[1]), []).append(int(name))
-        except OSError:
-            pass
-    todo = [process]
-    while todo:
-        found.append(todo.pop())
-        todo += children.get(found[-1], [])
-    return found
-
-
 def run(n, *arguments, environment=None):
     """Most memory of a rank [byte]; the run must end well."""
     command = [PLAIN, *arguments] if n == 1 else under.LAUNCH + ["-n", str(n), PROGRAM, *arguments]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                                env=dict(os.environ, OMP_NUM_THREADS=str(3 - n), **(environment or {})))
-    most = 0
-    while process.poll() is None:
-        most = max([most] + [resident(one) for one in below(process.pid)])
-        time.sleep(0.1)
+    most = under.watch(process, ["Pss"])
     assert process.returncode == 0, process.stderr.read()
-    return most
+    return most["Pss"]
 
 
 def same(folder, n_cells, environment):

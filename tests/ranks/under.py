@@ -1,8 +1,10 @@
 """Programs under mpirun, for the tests of this folder."""
 import os
+import re
 import shutil
 import subprocess
 import sys
+import time
 
 BUILD = os.environ["BRC_BUILD_DIR"]
 LAUNCH = ["mpirun", "--allow-run-as-root", "--quiet", "--oversubscribe", "--bind-to", "none"]
@@ -22,3 +24,38 @@ def start(n, command, delay_us=0, **more):
     environment = dict(os.environ, OMP_NUM_THREADS="1", BRECCIA_RANKS_DELAY_US=str(delay_us), **more)
     return subprocess.Popen(LAUNCH + ["-n", str(n)] + command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                             text=True, env=environment)
+
+
+def below(process):
+    """The process and all that it started."""
+    found, children = [], {}
+    for name in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{name}/stat", encoding="ascii", errors="replace") as file:
+                children.setdefault(int(file.read().rsplit(")", 1)[1].split()[1]), []).append(int(name))
+        except OSError:
+            pass
+    todo = [process]
+    while todo:
+        found.append(todo.pop())
+        todo += children.get(found[-1], [])
+    return found
+
+
+def pages(process):
+    """Bytes of the process by the names of smaps_rollup; none once it has ended."""
+    try:
+        with open(f"/proc/{process}/smaps_rollup", encoding="ascii") as file:
+            return {name: 1024 * int(size) for name, size in re.findall(r"^(\w+): +(\d+) kB", file.read(), re.M)}
+    except OSError:
+        return {}
+
+
+def watch(process, names):
+    """Until a Popen ends: the most bytes that one of its processes has, by name."""
+    most = dict.fromkeys(names, 0)
+    while process.poll() is None:
+        for one in map(pages, below(process.pid)):
+            most = {name: max(bytes_, one.get(name, 0)) for name, bytes_ in most.items()}
+        time.sleep(0.1)
+    return most

@@ -161,21 +161,78 @@ static void files_of_version_1_are_still_read(void **state)
     brc_domain_free(&d);
 }
 
-static void numbers_are_stored_in_eight_bytes_little_endian(void **state)
+/* domain_version2.h5 was written by version 2: 27 cubes of 1 m, two grains, set "top". Integers have 64 bits there, and
+ * faces stand once a bond. */
+static void files_of_version_2_are_still_read(void **state)
+{
+    brc_domain *d;
+    if (brc_domain_read(*state, BRC_SOURCE_DIR_PATH "/tests/preprocess/domain_version2.h5", &d) != BRC_OK)
+        fail_msg("%s", brc_context_message(*state));
+    assert_int_equal(d->n_elements, 27);
+    assert_int_equal(d->n_bonds, 54);
+    assert_int_equal(d->pages.n, 0);
+    int32_t grains = 0;
+    for (int64_t e = 0; e < 27; ++e)
+        grains |= 1 << d->grain[e];
+    assert_int_equal(grains, 3);
+    for (int64_t h = 0; h < d->n_half_edges; ++h) {
+        const double *s = d->area_vector + 3 * h;
+        assert_near(s[0] * s[0] + s[1] * s[1] + s[2] * s[2], 1.0, 1e-14);
+    }
+    assert_int_equal(d->sets[brc_domain_find_set(d, "top")].n_members, 9);
+    brc_domain_free(&d);
+}
+
+static void numbers_are_stored_as_in_memory_little_endian(void **state)
 {
     brc_domain *d = sample(*state);
     assert_int_equal(brc_domain_write(*state, d, path), BRC_OK);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const char *const name[4] = {"half_edges/neighbour", "elements/body", "bonds/area_vector", "sets/0"};
-    for (int k = 0; k < 4; ++k) {
+    const char *const name[5] = {"half_edges/neighbour", "elements/body", "half_edges/area_vector", "sets/0",
+                                 "cells/vertex_start"};
+    for (int k = 0; k < 5; ++k) {
         const hid_t set = H5Dopen2(file, name[k], H5P_DEFAULT), type = H5Dget_type(set);
-        assert_true(H5Tequal(type, k == 2 ? H5T_IEEE_F64LE : H5T_STD_I64LE) > 0);
+        assert_true(H5Tequal(type, k == 2 ? H5T_IEEE_F64LE : k == 4 ? H5T_STD_I64LE : H5T_STD_I32LE) > 0);
+        if (k == 2) assert_int_equal(H5Dget_offset(set) % BRC_FILE_PAGE, 0);
         H5Tclose(type);
         H5Dclose(set);
     }
     H5Fclose(file);
     brc_domain_free(&d);
     remove(path);
+}
+
+/* Long arrays are not in memory that the program holds; what is written to them stays with the domain, also where the
+ * file has another name or none. */
+static void long_arrays_are_pages_of_the_file(void **state)
+{
+    brc_context *context = *state;
+    brc_build_request r = test_box(4000, 0.9);
+    brc_domain *a = test_build(context, &r), *b, *again;
+    const int64_t built = brc_memory_held(), n = a->n_elements, v = 3 * a->vertex_start[n];
+    assert_int_equal(brc_domain_write(context, a, path), BRC_OK);
+    assert_int_equal(brc_domain_read(context, path, &b), BRC_OK);
+    const int64_t own = brc_memory_held() - built;
+    assert_true(b->pages.n >= 10);
+    if (10 * own > built) fail_msg("%lld bytes of %lld are held", (long long)own, (long long)built);
+    assert_true(brc_memory_block_bytes(b->vertex) >= v * (int64_t)sizeof *b->vertex);
+    SAME(vertex, v);
+    b->vertex[1] = -7.0;
+    assert_int_equal(brc_domain_read(context, path, &again), BRC_OK);
+    assert_memory_equal(again->vertex, a->vertex, (size_t)v * sizeof *a->vertex);
+    brc_domain_free(&again);
+    remove(path);
+    assert_true(b->vertex[1] == -7.0);
+    b->vertex[1] = a->vertex[1];
+    SAME(area_vector, 3 * a->n_half_edges);
+    assert_int_equal(brc_domain_take_pages(context, b), BRC_OK);
+    assert_int_equal(b->pages.n, 0);
+    assert_true(brc_memory_held() - built > built / 2);
+    SAME(vertex, v);
+    SAME(twin, a->n_half_edges);
+    test_same_bytes(context, a, b);
+    brc_domain_free(&a);
+    brc_domain_free(&b);
 }
 
 static void foreign_and_missing_files_are_refused(void **state)
@@ -269,7 +326,7 @@ static void change_a_number(hid_t file)
 
 static void spoiled_files_are_refused_with_what_is_wrong(void **state)
 {
-    spoil(*state, set_version, "format version 99, this program reads versions 1 to 2");
+    spoil(*state, set_version, "format version 99, this program reads versions 1 to 3");
     spoil(*state, set_count, "expected [2147483647]");
     spoil(*state, change_kind, "kind of elements is unknown, expected cells or spheres");
     spoil(*state, delete_array, "'half_edges/twin' is missing");
@@ -350,7 +407,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_was_written_is_read_back_bit_for_bit, test_begin, test_end),
         cmocka_unit_test_setup_teardown(spheres_and_grains_are_read_back_bit_for_bit, test_begin, test_end),
         cmocka_unit_test_setup_teardown(files_of_version_1_are_still_read, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(numbers_are_stored_in_eight_bytes_little_endian, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(files_of_version_2_are_still_read, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(numbers_are_stored_as_in_memory_little_endian, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(long_arrays_are_pages_of_the_file, test_begin, test_end),
         cmocka_unit_test_setup_teardown(foreign_and_missing_files_are_refused, test_begin, test_end),
         cmocka_unit_test_setup_teardown(spoiled_files_are_refused_with_what_is_wrong, test_begin, test_end),
         cmocka_unit_test_setup_teardown(damaged_bytes_never_give_a_wrong_domain, test_begin, test_end),

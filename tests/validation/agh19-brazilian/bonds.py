@@ -32,15 +32,15 @@ def bonds(folder, domain):
         moved = data["displacement"][()][order]
         stress = data["stress"][()][order][:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
     with h5py.File(domain) as file:
-        at, area = file["elements/position"][()], np.linalg.norm(file["bonds/area_vector"][()], axis=1)
+        at, area = file["elements/position"][()], np.linalg.norm(file["half_edges/area_vector"][()], axis=1)
         size = 1000 * np.mean(file["elements/volume"][()]) ** (1 / 3)
-        other, start, bond = (file["half_edges/" + name][()] for name in ("neighbour", "row_start", "bond"))
+        other, start = (file["half_edges/" + name][()] for name in ("neighbour", "row_start"))
     one = np.repeat(np.arange(len(at)), np.diff(start))
     branch, jump = at[other] - at[one], moved[other] - moved[one]
     length = np.linalg.norm(branch, axis=1)
     axis = branch / length[:, None]
     shape, gradient = np.zeros((len(at), 3, 3)), np.zeros((len(at), 3, 3))
-    weighted = (area[bond] / length)[:, None, None] * branch[:, None, :]
+    weighted = (area / length)[:, None, None] * branch[:, None, :]
     np.add.at(shape, one, branch[:, :, None] * weighted)
     np.add.at(gradient, one, jump[:, :, None] * weighted)
     gradient = gradient @ np.linalg.inv(shape)
