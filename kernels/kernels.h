@@ -57,6 +57,7 @@
 #include "effects/contact/contact_cells.cl"
 #include "effects/contact/contact_rigid.cl"
 #include "models/dlsm/softening_record.cl"
+#include "models/dlsm/softening_face.cl"
 #include "models/dlsm/softening.cl"
 #include "models/dlsm/softening_screen.cl"
 #include "models/dlsm/softening_onset.cl"
@@ -71,6 +72,7 @@
 #define PASS_MEMBERS(item, row_start) members_of_group(item, row_start)
 #define PASS_ELEMENT(item, l) ((item)*W + (l))
 #include "models/dlsm/dlsm_passes.cl"
+#include "models/dlsm/softening_passes.cl"
 #include "models/published/published_passes.cl"
 #undef PASS
 #undef PASS_ITEMS
@@ -82,6 +84,7 @@
 #define PASS_MEMBERS(item, row_start) members_of_list(item, n, list, row_start)
 #define PASS_ELEMENT(item, l) list[(item)*W + (l) < n ? (item)*W + (l) : n - 1]
 #include "models/dlsm/dlsm_passes.cl"
+#include "models/dlsm/softening_passes.cl"
 #include "models/published/published_passes.cl"
 #undef PASS
 #undef PASS_ITEMS

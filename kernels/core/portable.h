@@ -213,6 +213,57 @@ LAW int brc_lane_any_short(lane a, lane b)
 
 #endif
 
+/* Which lanes: LANE_LESS(a, b), and & | ~ of such. LANE_WHERE(which, a, b): a in these, b in the others. */
+#if W == 1
+typedef int lane_mask;
+#define LANE_LESS(a, b) (-((a) < (b)))
+#define LANE_WHERE(which, a, b) ((which) ? (a) : (b))
+#define LANE_SOME(which) ((which) != 0)
+#define LANE_ALL (-1)
+#elif defined(__OPENCL_VERSION__)
+#if BRC_PRECISION == 0
+typedef BRC_JOIN(long, BRC_LANES) lane_mask;
+#else
+typedef BRC_JOIN(int, BRC_LANES) lane_mask;
+#endif
+#define LANE_LESS(a, b) ((a) < (b))
+#define LANE_WHERE(which, a, b) select((b), (a), (which))
+#define LANE_SOME(which) any(which)
+#define LANE_ALL ((lane_mask)(-1))
+#elif !defined(BRC_TARGET) && W == 8 && defined(__AVX512F__)
+#include <immintrin.h>
+typedef int lane_mask;
+#if BRC_PRECISION == 0
+#define LANE_LESS(a, b) ((int)_mm512_cmp_pd_mask((__m512d)(a), (__m512d)(b), _CMP_LT_OQ))
+#define LANE_WHERE(which, a, b) ((lane)_mm512_mask_blend_pd((__mmask8)(which), (__m512d)(b), (__m512d)(a)))
+#else
+#define LANE_LESS(a, b) ((int)_mm256_cmp_ps_mask((__m256)(a), (__m256)(b), _CMP_LT_OQ))
+#define LANE_WHERE(which, a, b) ((lane)_mm256_mask_blend_ps((__mmask8)(which), (__m256)(b), (__m256)(a)))
+#endif
+#define LANE_SOME(which) (((which)&0xff) != 0)
+#define LANE_ALL 0xff
+#else
+#if BRC_PRECISION == 0
+typedef long lane_mask __attribute__((vector_size(W * sizeof(coeff))));
+#else
+typedef int lane_mask __attribute__((vector_size(W * sizeof(coeff))));
+#endif
+LAW lane brc_lane_where(lane_mask which, lane a, lane b)
+{
+    return (lane)((which & (lane_mask)a) | (~which & (lane_mask)b));
+}
+LAW int brc_lane_some(lane_mask which)
+{
+    int some = 0;
+    for (int l = 0; l < W; ++l) some |= which[l] != 0;
+    return some;
+}
+#define LANE_LESS(a, b) ((a) < (b))
+#define LANE_WHERE(which, a, b) brc_lane_where((which), (a), (b))
+#define LANE_SOME(which) brc_lane_some(which)
+#define LANE_ALL (~(lane_mask){0})
+#endif
+
 /* How a kernel uses an array, by rows: those of the item's own elements, their slots, slices, faces and pairs, and all
  * others, as of neighbours. Read at its own; read at others too; written at its own; read and written at its own;
  * raised to one and the same number at others too, neighbours by bonds; the same, and read at its own; written, and

@@ -268,6 +268,16 @@ LAW lane_mat3 lane_gather9(GLOBAL const coeff *restrict p, lane_int row)
 #endif
 #endif
 }
+/* The same of records that other work-items change meanwhile: no number beside one's own is read. */
+LAW lane_mat3 lane_gather9_alone(GLOBAL const coeff *restrict p, lane_int row)
+{
+#if WIDE_RECORDS
+    GLOBAL const coeff *const r = p + (brc_size)row * 9;
+    return (lane_mat3){r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]};
+#else
+    return lane_gather9(p, row);
+#endif
+}
 LAW lane_sym3 lane_gather6(GLOBAL const coeff *restrict p, lane_int row)
 {
 #if WIDE_RECORDS

@@ -22,10 +22,22 @@ typedef struct {
 LAW lane_vec3 lane_vec3_add(lane_vec3 a, lane_vec3 b) { return (lane_vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 LAW lane_vec3 lane_vec3_sub(lane_vec3 a, lane_vec3 b) { return (lane_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 LAW lane_vec3 lane_vec3_scale(lane k, lane_vec3 a) { return (lane_vec3){k * a.x, k * a.y, k * a.z}; }
+/* a + k b */
+LAW lane_vec3 lane_vec3_more(lane_vec3 a, lane k, lane_vec3 b)
+{
+    return (lane_vec3){a.x + k * b.x, a.y + k * b.y, a.z + k * b.z};
+}
 LAW lane lane_vec3_dot(lane_vec3 a, lane_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 LAW lane_vec3 lane_vec3_cross(lane_vec3 a, lane_vec3 b)
 {
     return (lane_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+LAW lane_vec3 lane_vec3_zero(void) { return (lane_vec3){LANE_ZERO, LANE_ZERO, LANE_ZERO}; }
+LAW lane lane_number(coeff x) { return LANE_ZERO + x; }
+LAW lane_vec3 lane_vec3_where(lane_mask which, lane_vec3 a, lane_vec3 b)
+{
+    return (lane_vec3){LANE_WHERE(which, a.x, b.x), LANE_WHERE(which, a.y, b.y), LANE_WHERE(which, a.z, b.z)};
 }
 
 /* ---- matrices ---- */
@@ -99,6 +111,10 @@ LAW lane_vec3 lane_sym3_mul_vec(lane_sym3 a, lane_vec3 b)
 LAW lane_sym3 lane_sym3_add(lane_sym3 a, lane_sym3 b)
 {
     return (lane_sym3){a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.yz + b.yz, a.xz + b.xz, a.xy + b.xy};
+}
+LAW lane_sym3 lane_sym3_sub(lane_sym3 a, lane_sym3 b)
+{
+    return (lane_sym3){a.xx - b.xx, a.yy - b.yy, a.zz - b.zz, a.yz - b.yz, a.xz - b.xz, a.xy - b.xy};
 }
 /* k a + m I */
 LAW lane_sym3 lane_sym3_scale_shift(lane k, lane_sym3 a, lane m)

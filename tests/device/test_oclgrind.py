@@ -83,7 +83,6 @@ MORE = {
                 {"closed_follow", "closed_press", "closed_energy"}),
     "beams-break": ({"model": "cbm", "fill": SPHERES, "strength": WEAK, "stage": steps(3, "1 ms", ENDS_PULLED), "effects": PRINCIPAL + ENDS},
                     {"fracture_check", "fracture_break", "closure_begin", "closure_move", "closure_force"}),
-    # not clean: beam_soft_begin reads `active` while others set it to 1; nobody has shown yet that no other race is there
     "beams-soften": ({"model": "cbm", "fill": SPHERES, "strength": SOFT.format(energy="1e-6 J/m^2"), "stage": steps(3, "1 ms", ENDS_PULLED),
                       "effects": PRINCIPAL + ENDS}, {"beam_soft_begin", "beam_soft_move", "beam_soft_force"}),
     "statics-coarse": ({"model": "dlsm", "fill": CELLS, "stage": static("multigrid", APART)}, {"multigrid_step"}),

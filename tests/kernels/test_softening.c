@@ -72,9 +72,10 @@ static void faces_slide_by_mohr_coulomb(void **state)
     assert_true(fabs(own.ratio - 1) < 1e-12 && fabs(all.ratio - 1) < 1e-12);
     assert_true(fabs(plane.x) < 1e-7 && fabs(plane.y - 1) < 1e-12); /* from cosines */
     assert_true(fabs(soft_slide_start(traction, n, 0.3) - (tau - 0.3 * p)) < 1e-12);
-    const soft_vector up = {0.7, 1, 0.2}, down = {-0.7, 2, -0.2},
-                      sum = soft_add(soft_passed(stress, n, up), 1, soft_passed(stress, n, down));
-    assert_true(soft_dot(sum, sum) < 1e-24);
+    const lane_sym3 same = {stress.xx, stress.yy, stress.zz, stress.yz, stress.xz, stress.xy};
+    const lane_vec3 across = {n.x, n.y, n.z}, up = {0.7, 1, 0.2}, down = {-0.7, 2, -0.2},
+                    sum = lane_vec3_add(soft_passed(same, across, up), soft_passed(same, across, down));
+    assert_true(lane_vec3_dot(sum, sum) < 1e-24);
 }
 
 /* First opening, unloading to the origin and reloading: cells and cohesion pull alike, to rounding of the load. */
@@ -85,7 +86,7 @@ static void openings_balance(void **state)
         for (double stiffness = 20; stiffness < 1e4; stiffness *= 3)
             for (double widest = 0; widest < 0.4; widest += 0.1)
                 for (double drive = 0.5; drive < 2 * stiffness; drive *= 1.5) {
-                    const double w = soft_opening(faces[k], widest, drive, stiffness);
+                    const double w = soft_opening(faces[k], widest, drive, stiffness, LANE_ALL);
                     const double force =
                         w > widest || widest == 0 ? soft_force(faces[k], w) : soft_force(faces[k], widest) * w / widest;
                     if (w == 0)
@@ -120,9 +121,9 @@ static coeff draw(uint64_t *state) /* -1 to 1 */
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (coeff)(*state >> 11) / 4503599627370496.0 - 1;
 }
-static soft_vector draw_vector(uint64_t *state)
+static lane_vec3 draw_vector(uint64_t *state)
 {
-    return (soft_vector){draw(state), draw(state), draw(state)};
+    return (lane_vec3){draw(state), draw(state), draw(state)};
 }
 
 /* Ten openings, of faces all around a cell: 2 V psi = V (lambda tr^2 + 2 mu E:E), E the strain of all, is at most the
@@ -133,19 +134,19 @@ static void stiffness_of_a_cell_is_from_above(void **state)
     uint64_t seed = 1;
     const double lambda[] = {-0.6, 0, 1, 9, 49}; /* nu -0.75 to 0.49 with mu 1 */
     for (int trial = 0; trial < 2000; ++trial) {
-        soft_vector pull[10], opening[10];
+        lane_vec3 pull[10], opening[10];
         double reach = 0, bound = 0, h[3][3] = {{0}};
         const double l = lambda[trial % 5];
         for (int f = 0; f < 10; ++f) {
             pull[f] = draw_vector(&seed), opening[f] = draw_vector(&seed);
-            reach += sqrt(soft_dot(pull[f], pull[f]));
+            reach += sqrt(lane_vec3_dot(pull[f], pull[f]));
             const double w[3] = {opening[f].x, opening[f].y, opening[f].z}, a[3] = {pull[f].x, pull[f].y, pull[f].z};
             for (int i = 0; i < 9; ++i)
                 h[i / 3][i % 3] += w[i / 3] * a[i % 3];
         }
         for (int f = 0; f < 10; ++f) {
-            const soft_tensor k = soft_add_cell((soft_tensor){0, 0, 0, 0, 0, 0}, pull[f], reach, 0.5, l + 2, 1);
-            bound += soft_dot(opening[f], soft_tensor_times(k, opening[f]));
+            const lane_sym3 k = soft_cell_stiffness(pull[f], reach, 0.5, l + 2, 1);
+            bound += lane_vec3_dot(opening[f], lane_sym3_mul_vec(k, opening[f]));
         }
         double trace = h[0][0] + h[1][1] + h[2][2], square = 0;
         for (int i = 0; i < 9; ++i)
@@ -165,24 +166,25 @@ static void openings_balance_in_every_direction(void **state)
     int n_across = 0;
     for (int trial = 0; trial < 500; ++trial) {
         const soft_face f = faces[trial % 2];
-        const soft_vector some = draw_vector(&seed), normal = soft_scale(1 / sqrt(soft_dot(some, some)), some),
-                          shut = {0, 0, 0}, drive = soft_scale(20, draw_vector(&seed));
-        soft_tensor k = {15, 15, 15, 0, 0, 0};
+        const lane_vec3 some = draw_vector(&seed), normal = lane_vec3_scale(1 / sqrt(lane_vec3_dot(some, some)), some),
+                        shut = {0, 0, 0}, drive = lane_vec3_scale(20, draw_vector(&seed));
+        lane_sym3 k = {15, 15, 15, 0, 0, 0};
         for (int side = 0; side < 2; ++side)
-            k = soft_add_cell(k, draw_vector(&seed), 4, 1, 5, 1);
-        soft_vector w = soft_balance(f, 0, drive, k, 0, normal, shut, 0, shut, 0);
+            k = lane_sym3_add(k, soft_cell_stiffness(draw_vector(&seed), 4, 1, 5, 1));
+        lane_vec3 w = soft_balance(f, 0, drive, k, 0, normal, shut, 0, shut, 0);
         for (int turn = 0; turn < 200; ++turn) {
-            const double size = sqrt(soft_dot(w, w));
+            const double size = sqrt(lane_vec3_dot(w, w));
             if (!(size > 0)) break;
-            const soft_vector left = soft_add(drive, -1, soft_tensor_times(k, w));
-            assert_true(fabs(soft_dot(left, w) / size - soft_force(f, size)) < 1e-9 * 40);
-            assert_true(soft_dot(w, normal) >= -1e-12 * size);
+            const lane_vec3 left = lane_vec3_more(drive, -1, lane_sym3_mul_vec(k, w));
+            assert_true(fabs(lane_vec3_dot(left, w) / size - soft_force(f, size)) < 1e-9 * 40);
+            assert_true(lane_vec3_dot(w, normal) >= -1e-12 * size);
             w = soft_balance(f, 0, drive, k, soft_force(f, size) / size, normal, w, 0, shut, 0);
         }
-        const double size = sqrt(soft_dot(w, w));
-        if (!(size > 0) || !(soft_dot(w, normal) > 1e-9)) continue;
-        const soft_vector left = soft_add(soft_add(drive, -1, soft_tensor_times(k, w)), -soft_force(f, size) / size, w);
-        assert_true(sqrt(soft_dot(left, left)) < 1e-9 * 40);
+        const double size = sqrt(lane_vec3_dot(w, w));
+        if (!(size > 0) || !(lane_vec3_dot(w, normal) > 1e-9)) continue;
+        const lane_vec3 left =
+            lane_vec3_more(lane_vec3_more(drive, -1, lane_sym3_mul_vec(k, w)), -soft_force(f, size) / size, w);
+        assert_true(sqrt(lane_vec3_dot(left, left)) < 1e-9 * 40);
         ++n_across;
     }
     assert_true(n_across > 100);
@@ -195,9 +197,9 @@ static void a_crack_carries_the_pushes_along_it(void **state)
     (void)state;
     uint64_t seed = 3;
     for (int trial = 0; trial < 1000; ++trial) {
-        const soft_vector some = draw_vector(&seed), e = soft_scale(1 / sqrt(soft_dot(some, some)), some),
-                          area = draw_vector(&seed);
-        const soft_vector p = draw_vector(&seed), q = draw_vector(&seed);
+        const lane_vec3 some = draw_vector(&seed), e = lane_vec3_scale(1 / sqrt(lane_vec3_dot(some, some)), some),
+                        area = draw_vector(&seed);
+        const lane_vec3 p = draw_vector(&seed), q = draw_vector(&seed);
         const failure_stress m =
             trial % 4 ? (failure_stress){p.x, p.y, p.z, q.x, q.y, q.z} : (failure_stress){p.x, p.x, p.x, 0, 0, 0};
         double s[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, along[3][3] = {{0}},
@@ -218,9 +220,9 @@ static void a_crack_carries_the_pushes_along_it(void **state)
             expected[i / 3] +=
                 on[i % 3] * (fmin(value.first, 0) * a[i / 3] * a[i % 3] + fmin(second, 0) * b[i / 3] * b[i % 3] +
                              fmin(value.third, 0) * c[i / 3] * c[i % 3]);
-        const soft_vector got = soft_carried(m, e, area);
+        const lane_vec3 got = soft_carried((lane_sym3){m.xx, m.yy, m.zz, m.yz, m.xz, m.xy}, e, area);
         assert_true(fabs(got.x - expected[0]) + fabs(got.y - expected[1]) + fabs(got.z - expected[2]) < 1e-12);
-        assert_true(fabs(soft_dot(got, e)) < 1e-14);
+        assert_true(fabs(lane_vec3_dot(got, e)) < 1e-14);
     }
 }
 
@@ -229,31 +231,32 @@ static void a_crack_carries_the_pushes_along_it(void **state)
 static void sides_turn_until_they_pull_evenly(void **state)
 {
     (void)state;
-    const soft_vector normal = {0, 0.3, 0.4}, uneven = {2, -1, 0.5}, before = {0.02, 0, 0}, none = {0, 0, 0};
-    const soft_vector along = soft_beside(uneven, normal);
-    const double size = sqrt(soft_dot(along, along));
-    const soft_tensor cells = {40, 55, 70, 3, -5, 8}, alike = {50, 50, 50, 0, 0, 0};
+    const lane_vec3 normal = {0, 0.3, 0.4}, uneven = {2, -1, 0.5}, before = {0.02, 0, 0}, none = {0, 0, 0};
+    const lane_vec3 along = soft_beside(uneven, normal);
+    const double size = sqrt(lane_vec3_dot(along, along));
+    const lane_sym3 cells = {40, 55, 70, 3, -5, 8}, alike = {50, 50, 50, 0, 0, 0};
     for (int k = 0; k < 2; ++k) {
         for (double widest = 0; widest < 0.3; widest += 0.07)
             for (double held = 0; held < 1.2 * size; held += 0.1 * size) {
-                const soft_vector turn = soft_side(faces[k], widest, uneven, cells, none, held, normal);
-                assert_true(fabs(soft_dot(turn, normal)) < 1e-14);
-                assert_true(soft_dot(turn, along) >= 0);
-                if (held > size) assert_true(soft_dot(turn, turn) == 0);
+                const lane_vec3 turn = soft_side(faces[k], widest, uneven, cells, none, held, normal, LANE_ALL);
+                assert_true(fabs(lane_vec3_dot(turn, normal)) < 1e-14);
+                assert_true(lane_vec3_dot(turn, along) >= 0);
+                if (held > size) assert_true(lane_vec3_dot(turn, turn) == 0);
             }
         const double drawn = soft_force(faces[k], 0.1) / 0.1;
-        const soft_vector turn = soft_side(faces[k], 0.1, uneven, alike, before, 0, normal);
-        const soft_vector left = soft_add(soft_add(along, -50, turn), -drawn, soft_add(before, 1, turn));
-        assert_true(soft_dot(left, left) < 1e-20);
+        const lane_vec3 turn = soft_side(faces[k], 0.1, uneven, alike, before, 0, normal, LANE_ALL);
+        const lane_vec3 left =
+            lane_vec3_more(lane_vec3_more(along, -50, turn), -drawn, lane_vec3_more(before, 1, turn));
+        assert_true(lane_vec3_dot(left, left) < 1e-20);
         /* a face that has hardly opened stays, whatever the products of its secant would be */
-        const soft_vector begins = soft_side(faces[k], 1e-300, uneven, alike, none, 0, normal);
-        assert_true(soft_dot(begins, begins) == 0);
+        const lane_vec3 begins = soft_side(faces[k], 1e-300, uneven, alike, none, 0, normal, LANE_ALL);
+        assert_true(lane_vec3_dot(begins, begins) == 0);
         /* a face that is shut opens at its edge once the unevenness is above what the cohesion starts with */
-        const soft_vector weak = soft_scale(0.99 * 3 / size, along), strong = soft_scale(1.5 * 3 / size, along);
-        const soft_vector shut = soft_side(faces[k], 0, weak, alike, none, 0, normal),
-                          opens = soft_side(faces[k], 0, strong, alike, none, 0, normal);
-        const double v = sqrt(soft_dot(opens, opens));
-        assert_true(soft_dot(shut, shut) == 0);
+        const lane_vec3 weak = lane_vec3_scale(0.99 * 3 / size, along), strong = lane_vec3_scale(1.5 * 3 / size, along);
+        const lane_vec3 shut = soft_side(faces[k], 0, weak, alike, none, 0, normal, LANE_ALL),
+                        opens = soft_side(faces[k], 0, strong, alike, none, 0, normal, LANE_ALL);
+        const double v = sqrt(lane_vec3_dot(opens, opens));
+        assert_true(lane_vec3_dot(shut, shut) == 0);
         assert_true(v > 0 && fabs(50 * v + soft_force(faces[k], v) - 4.5) < 1e-9);
     }
 }
@@ -265,41 +268,41 @@ static void shut_faces_slide_by_coulomb(void **state)
     (void)state;
     const soft_face ended = {3, 0.7, 0};
     const double widest = soft_end(ended), mu = 0.3;
-    const soft_vector axis = {0, 0, 1}, before = {0.02, 0.01, 0}, none = {0, 0, 0}, carried = {0.4, 0, 0};
-    const soft_tensor k = {30, 30, 30, 0, 0, 0};
+    const lane_vec3 axis = {0, 0, 1}, before = {0.02, 0.01, 0}, none = {0, 0, 0}, carried = {0.4, 0, 0};
+    const lane_sym3 k = {30, 30, 30, 0, 0, 0};
     for (double shear = 0; shear < 4; shear += 0.1) {
-        const soft_vector drive = soft_add((soft_vector){shear, 0, -5}, 1, soft_tensor_times(k, before));
-        const soft_vector now = soft_balance(ended, widest, drive, k, 0, axis, before, mu, none, 0);
-        const soft_vector left = soft_add(drive, -1, soft_tensor_times(k, now));
+        const lane_vec3 drive = lane_vec3_more((lane_vec3){shear, 0, -5}, 1, lane_sym3_mul_vec(k, before));
+        const lane_vec3 now = soft_balance(ended, widest, drive, k, 0, axis, before, mu, none, 0);
+        const lane_vec3 left = lane_vec3_more(drive, -1, lane_sym3_mul_vec(k, now));
         assert_true(fabs(now.z) < 1e-15);
         if (shear < mu * 5 * 0.999) assert_true(now.x == before.x && now.y == before.y);
         if (shear > mu * 5 * 1.001)
             assert_true(fabs(left.x - mu * 5) < 1e-12 && fabs(left.y) < 1e-12 && now.x > before.x);
     }
-    const soft_vector free = soft_balance(ended, widest, (soft_vector){1, 0, 3}, k, 0, axis, before, mu, none,
-                                          0); /* pulled apart: nothing holds */
+    const lane_vec3 free = soft_balance(ended, widest, (lane_vec3){1, 0, 3}, k, 0, axis, before, mu, none,
+                                        0); /* pulled apart: nothing holds */
     assert_true(fabs(free.x - 1.0 / 30) < 1e-12 && fabs(free.z - 0.1) < 1e-12);
     /* held open: it opens along the axis alone until its shear is above what holds it */
-    const soft_vector drive = soft_add((soft_vector){0.4, 0, 3}, 1, soft_tensor_times(k, before));
-    const soft_vector held = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.5),
-                      slid = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.1);
+    const lane_vec3 drive = lane_vec3_more((lane_vec3){0.4, 0, 3}, 1, lane_sym3_mul_vec(k, before));
+    const lane_vec3 held = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.5),
+                    slid = soft_balance(ended, widest, drive, k, 0, axis, before, 0, none, 0.1);
     assert_true(fabs(held.x - before.x) < 1e-12 && fabs(held.y - before.y) < 1e-12 && fabs(held.z - 0.1) < 1e-12);
     assert_true(fabs(slid.x - before.x - 0.3 / 30) < 1e-12 && fabs(slid.y - before.y) < 1e-12 &&
                 fabs(slid.z - 0.1) < 1e-12);
     /* carried: nothing slides while the shear lies between nothing and it; beyond it, or against it, only by what is
      * more */
     for (double shear = -0.6; shear < 1; shear += 0.1) {
-        const soft_vector on = soft_add((soft_vector){shear, 0, 3}, 1, soft_tensor_times(k, before)),
-                          w = soft_balance(ended, widest, on, k, 0, axis, before, 0, carried, 0);
+        const lane_vec3 on = lane_vec3_more((lane_vec3){shear, 0, 3}, 1, lane_sym3_mul_vec(k, before)),
+                        w = soft_balance(ended, widest, on, k, 0, axis, before, 0, carried, 0);
         const double more = shear > 0.4 ? shear - 0.4 : shear < 0 ? shear : 0;
         assert_true(fabs(w.x - before.x - more / 30) < 1e-12 && fabs(w.z - 0.1) < 1e-12);
         assert_true((w.x - before.x) * (shear - more) > -1e-15);
     }
-    const soft_vector tilted = {0.6, 0, 0.8}, into = soft_outside((soft_vector){-0.1, 0.02, 0.01}, tilted),
-                      out = {0.1, 0, 0};
-    assert_true(fabs(soft_dot(into, tilted)) < 1e-15 && into.y == 0.02 && soft_outside(out, tilted).x == 0.1);
-    assert_true(!soft_is_clear((soft_vector){0, 0, 0.09}, axis, 0.1) &&
-                soft_is_clear((soft_vector){0, 0, 0.1}, axis, 0.1) && soft_is_clear((soft_vector){1, 0, 0}, axis, 0.1));
+    const lane_vec3 tilted = {0.6, 0, 0.8}, into = soft_outside((lane_vec3){-0.1, 0.02, 0.01}, tilted),
+                    out = {0.1, 0, 0};
+    assert_true(fabs(lane_vec3_dot(into, tilted)) < 1e-15 && into.y == 0.02 && soft_outside(out, tilted).x == 0.1);
+    assert_true(!soft_is_clear((lane_vec3){0, 0, 0.09}, axis, 0.1) &&
+                soft_is_clear((lane_vec3){0, 0, 0.1}, axis, 0.1) && soft_is_clear((lane_vec3){1, 0, 0}, axis, 0.1));
     assert_true(soft_is_clear(none, axis, 0)); /* without closure */
     assert_true(soft_keeps(0.1, 0) == 1 && fabs(soft_keeps(0.1, 0.4) - 0.75) < 1e-15 && soft_keeps(0.5, 0.4) == 0);
 }

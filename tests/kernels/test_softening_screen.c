@@ -12,11 +12,26 @@ typedef struct bond {
     double gradient[18], stress[18], flux[18], s[3], force[3], ratio;
 } bond;
 
+/* What the look has of it but for the force, which stands in the bond. */
+static soft_whole seen(const bond *b)
+{
+    const lane_vec3 s = {b->s[0], b->s[1], b->s[2]};
+    const soft_cell own =
+                        soft_cell_of(0, s, s, b->flux, NULL, b->gradient, b->stress, modulus, ell, beta, one_plus_tau),
+                    beside =
+                        soft_cell_of(1, s, s, b->flux, NULL, b->gradient, b->stress, modulus, ell, beta, one_plus_tau);
+    const lane_vec3 uneven = soft_uneven(own.pulls, beside.pulls),
+                    normal = soft_turned(s, own.along_area, beside.along_area);
+    return (soft_whole){.force = {b->force[0], b->force[1], b->force[2]},
+                        .uneven = {uneven.x, uneven.y, uneven.z},
+                        .normal = soft_unit((soft_vector){normal.x, normal.y, normal.z}),
+                        .mean = soft_first(soft_mean_stress(own, beside))};
+}
 static failure_stress looked_at(const bond *b)
 {
-    const soft_vector s = {b->s[0], b->s[1], b->s[2]}, force = {b->force[0], b->force[1], b->force[2]};
-    return soft_stress(soft_mean_stress(b->gradient, b->stress, 0, 1), soft_scale(1 / SQRT(soft_dot(s, s)), force),
-                       soft_unit(soft_turned(b->gradient, 0, 1, s)));
+    const soft_vector s = {b->s[0], b->s[1], b->s[2]};
+    const soft_whole w = seen(b);
+    return soft_stress(w.mean, soft_scale(1 / SQRT(soft_dot(s, s)), w.force), w.normal);
 }
 
 static lane_mat3 of(const double *p)
@@ -37,9 +52,8 @@ static int ruled_in(const bond *b, double limit, double shear, double reach, dou
 /* The edge of the face, of a material with these constants: as the look has it, and whether lanes rule it in. */
 static double edge_of(const bond *b)
 {
-    const soft_vector s = {b->s[0], b->s[1], b->s[2]}, force = {b->force[0], b->force[1], b->force[2]};
-    const soft_vector uneven = soft_uneven(b->flux, b->gradient, 0, 1, s, modulus, ell, beta, one_plus_tau);
-    return soft_edge(0, uneven, force, soft_unit(soft_turned(b->gradient, 0, 1, s)), s, b->ratio);
+    const soft_whole w = seen(b);
+    return soft_edge(0, w.uneven, w.force, w.normal, (soft_vector){b->s[0], b->s[1], b->s[2]}, b->ratio);
 }
 static int edge_ruled_in(const bond *b, double limit)
 {
@@ -75,7 +89,7 @@ static void lanes_rule_out_what_the_look_does(void **state)
         const failure_stress whole = looked_at(&b);
         const failure_principal largest = failure_principal_of(whole);
         const double first = largest.first;
-        const soft_vector n = soft_unit(soft_turned(b.gradient, 0, 1, (soft_vector){b.s[0], b.s[1], b.s[2]}));
+        const soft_vector n = seen(&b).normal;
         const double across =
             fabs(n.x * largest.first_axis.x + n.y * largest.first_axis.y + n.z * largest.first_axis.z);
         const int near = ruled_in(&b, limit, 0, 0, 0), stands = ruled_in(&b, limit, 0, 0, 0.5);

@@ -15,7 +15,8 @@
  * area [N]; PER_AREA: one over the area [1/m^2]; SIDE (3 components), ALONG, COSINE, SINE, KEEPS: beam_lean; LATERAL:
  * nu / E [1/Pa]. Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with
  * the lower id, which computes for both; twin: the other entry. active [n / W], touched [n]: 1 from the first opening
- * of the group and of the element on. */
+ * of the group and of the element on; raised [n / W]: the same, of openings that beam_soft_keep has not seen yet too.
+ */
 
 #define BEAM_DAMAGE 0
 #define BEAM_START 1
@@ -189,19 +190,17 @@ KERNEL void beam_soft_virial(int n_groups, OWN(int) row_start, OWN(int) neighbou
     }
 }
 
-/* One beam after the motion of a step: y: Y [J], k [N/m], cosine of its opening; keeps, faded: beam_fades, and what
- * that costs the push along the crack [J]. The work of the opening is the mean of Y times what D grew by, as velocity
- * Verlet's own work is the mean of the forces at both ends of the step. */
+/* One beam after the motion of a step: y: Y [J], k [N/m], w: opening that the cohesion balances [m], left: force there
+ * [N], cosine of its opening; keeps, faded: beam_fades, and what that costs the push along the crack [J]. The work of
+ * the opening is the mean of Y times what D grew by, as velocity Verlet's own work is the mean of the forces at both
+ * ends of the step. */
 ROUTINE void beam_follow(SCATTER(coeff) crack, SCATTER(int) open, brc_size entry, brc_size other, coeff y, coeff k,
-                         coeff cosine, coeff steepest, coeff keeps, coeff faded)
+                         coeff w, coeff left, coeff cosine, coeff steepest, coeff keeps, coeff faded)
 {
-    const soft_face face = {BEAM_NUMBER(entry, START), BEAM_NUMBER(entry, ENERGY) * BEAM_NUMBER(entry, TILT),
-                            BEAM_NUMBER(entry, EXPONENTIAL) > 0};
     const coeff wide = BEAM_NUMBER(entry, WIDEST), before = BEAM_NUMBER(entry, DAMAGE), y_now = y > 0 ? y : 0;
-    const coeff w = soft_opening(face, wide, SQRT(REAL(2) * k * y_now), k);
     coeff damage = before;
     if (w > wide) {
-        const coeff left = soft_force(face, w), now = k * w / (left + k * w);
+        const coeff now = k * w / (left + k * w);
         damage = now > before ? now : before;
         if (!(left > 0)) damage = REAL(1), open[entry] = BEAM_ENDED, open[other] = BEAM_ENDED;
         BEAM_NUMBER(entry, WIDEST) = w, BEAM_NUMBER(other, WIDEST) = w;
@@ -242,10 +241,19 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, OWN(int) r
                     bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
                 const lane y = part.energy, faded = part.energy - before.energy,
                            k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond), keeps = lean.keeps;
+                const soft_face face = {lane_block(crack, slot, BEAM_WIDTH, BEAM_START, lane0),
+                                        lane_block(crack, slot, BEAM_WIDTH, BEAM_ENERGY, lane0) *
+                                            lane_block(crack, slot, BEAM_WIDTH, BEAM_TILT, lane0),
+                                        lane_block(crack, slot, BEAM_WIDTH, BEAM_EXPONENTIAL, lane0)};
+                const lane w = soft_opening(face, lane_block(crack, slot, BEAM_WIDTH, BEAM_WIDEST, lane0),
+                                            LANE_SQRT(REAL(2) * k * soft_above(y, 0)), k,
+                                            LANE_LESS(LANE_ZERO, face.start)),
+                           left = soft_force(face, w);
 #define FOLLOW(l)                                                                                                      \
     if (lead[entry + 0x##l] && open[entry + 0x##l] == BEAM_OPENS)                                                      \
         beam_follow(crack, open, entry + 0x##l, (brc_size)twin[entry + 0x##l], LANE_ITEM(y, l), LANE_ITEM(k, l),       \
-                    LANE_ITEM(cosine, l), steepest, LANE_ITEM(keeps, l), LANE_ITEM(faded, l));
+                    LANE_ITEM(w, l), LANE_ITEM(left, l), LANE_ITEM(cosine, l), steepest, LANE_ITEM(keeps, l),          \
+                    LANE_ITEM(faded, l));
                 LANE_EACH(FOLLOW)
 #undef FOLLOW
             }
@@ -342,8 +350,8 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                             GATHER(int) neighbour, OWN(int) twin, OWN(int) lead, OWN(coeff) branch,
                             OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
                             coeff bend, coeff twist, GATHER(coeff) beam_of, OWN(int) mark, GATHER(int) choice,
-                            GATHER(coeff) measure, GATHER(coeff) record, GATHER(int) touched, SCATTER(int) active,
-                            SCATTER(int) open, SCATTER(coeff) crack, SCATTER(coeff) factor)
+                            GATHER(coeff) measure, GATHER(coeff) record, GATHER(int) touched, OWN(int) active,
+                            FLAG(int) raised, SCATTER(int) open, SCATTER(coeff) crack, SCATTER(coeff) factor)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
@@ -403,8 +411,8 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                     crack[((to / C) * BEAM_WIDTH + (brc_size)what) * C + to % C] =                                     \
                         sign * crack[((at / C) * BEAM_WIDTH + (brc_size)what) * C + at % C];                           \
                 }                                                                                                      \
-                STORE_SAME(active + group, 1);                                                                         \
-                STORE_SAME(active + j / W, 1);                                                                         \
+                STORE_SAME(raised + group, 1);                                                                         \
+                STORE_SAME(raised + j / W, 1);                                                                         \
             }                                                                                                          \
         }                                                                                                              \
     }
@@ -415,11 +423,13 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
     }
 }
 
-/* Elements with beams that opened are touched; choices of beams that opened are no longer choices. */
+/* Groups and elements with beams that opened are active and touched; choices of beams that opened are no longer
+ * choices. */
 KERNEL void beam_soft_keep(int n_groups, int step, OWN(int) row_start, OWN(int) neighbour, OWN(int) mark,
-                           OWN(int) active, OWN(int) open, UPDATE(int) choice, PUT(int) touched)
+                           OWN(int) raised, UPDATE(int) active, OWN(int) open, UPDATE(int) choice, PUT(int) touched)
 {
     FOR_EACH_ITEM(group, n_groups) {
+        if (raised[group]) active[group] = 1;
         for (int e = group * W; (mark[group] == step || active[group]) && e < (group + 1) * W; ++e) {
             const int chosen = choice[e];
             for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {

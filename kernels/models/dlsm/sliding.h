@@ -7,11 +7,9 @@
 
 /* What of the stress m goes on through a face beside what acts on the plane across `axis`: m (area - (area.axis) axis)
  * [N]. Over the faces of a zig-zag along that plane it sums to nothing (docs/notebook/theory.md T11). */
-LAW soft_vector soft_passed(failure_stress m, soft_vector axis, soft_vector area)
+LAW lane_vec3 soft_passed(lane_sym3 m, lane_vec3 axis, lane_vec3 area)
 {
-    const soft_vector p = soft_add(area, -soft_dot(area, axis), axis);
-    return (soft_vector){m.xx * p.x + m.xy * p.y + m.xz * p.z, m.xy * p.x + m.yy * p.y + m.yz * p.z,
-                         m.xz * p.x + m.yz * p.y + m.zz * p.z};
+    return lane_sym3_mul_vec(m, lane_vec3_more(area, -lane_vec3_dot(area, axis), axis));
 }
 
 /* The force [N] that the cohesion of a face which slides falls from: what it carries across `axis`, less the friction

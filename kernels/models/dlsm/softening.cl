@@ -5,365 +5,259 @@
  * here, cells with open faces take the part of w back out of their sums (all of them are linear in J). Records of
  * faces: softening_record.cl. */
 
-/* Takes the openings out of H. listed: only of the n elements of the list. */
-KERNEL void soft_gradient(int n, int listed, OWN(int) list, OWN(int) row_start, OWN(coeff) alive, OWN(int) n_open,
-                          OWN(int) open, OWN(coeff) crack, OWN(coeff) area, OWN(coeff) inv_shape,
-                          UPDATE(coeff) gradient)
-{
-    FOR_EACH_ITEM(item, n) {
-        const int e = listed ? list[item] : item;
-        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY;
-            if (!open[entry] || !(alive[entry] > 0)) continue;
-            const soft_vector w =
-                soft_add(soft_part(crack, entry, SOFT_OPENING), REAL(1), soft_part(crack, entry, SOFT_SIDE));
-            const soft_vector a = soft_pull_of(inv_shape, e, soft_area(area, entry));
-            GLOBAL coeff *h = gradient + (brc_size)e * 9;
-            h[0] -= w.x * a.x, h[1] -= w.x * a.y, h[2] -= w.x * a.z;
-            h[3] -= w.y * a.x, h[4] -= w.y * a.y, h[5] -= w.y * a.z;
-            h[6] -= w.z * a.x, h[7] -= w.z * a.y, h[8] -= w.z * a.z;
-        }
-    }
-}
-
-/* Takes them out of B, whose sum of r (x) s is that of J - w. With several materials it reads J. With one it reads
- * gradients alone, which are those of J - w - v: v comes back in. */
-KERNEL void soft_flux(int n, int listed, OWN(int) list, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive,
-                      OWN(int) n_open, OWN(int) open, OWN(coeff) crack, OWN(coeff) area, OWN(coeff) inv_shape,
-                      OWN(coeff) gradient, coeff k_one, coeff ell_one, GATHER(coeff) modulus, OWN(coeff) ell_of,
-                      coeff beta, coeff one_plus_tau, UPDATE(coeff) flux)
-{
-    FOR_EACH_ITEM(item, n) {
-        const int e = listed ? list[item] : item;
-        if (n_open[e]) {
-            lane_mat3 rs = lane_mat3_zero(); /* k sum c w (x) s [N m] */
-            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-                const brc_size entry = SOFT_ENTRY;
-                if (!open[entry] || !(alive[entry] > 0)) continue;
-#if BRC_MANY_MATERIALS
-                const soft_vector w =
-                    soft_scale(SOFT_BOND_MODULUS(e, neighbour[entry]), soft_part(crack, entry, SOFT_OPENING));
-#else
-                const soft_vector w = soft_scale(-k_one, soft_part(crack, entry, SOFT_SIDE));
-#endif
-                const soft_vector s = soft_area(area, entry);
-                rs = lane_add_outer(rs, (lane_vec3){LANE_ZERO + w.x, LANE_ZERO + w.y, LANE_ZERO + w.z},
-                                    (lane_vec3){LANE_ZERO + s.x, LANE_ZERO + s.y, LANE_ZERO + s.z});
-            }
-            GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C, *h = gradient + (brc_size)e * 9;
-            const lane_sym3 inverse = {LANE_ZERO + p[0],     LANE_ZERO + p[C],     LANE_ZERO + p[2 * C],
-                                       LANE_ZERO + p[3 * C], LANE_ZERO + p[4 * C], LANE_ZERO + p[5 * C]};
-            const lane_mat3 own = {LANE_ZERO + h[0], LANE_ZERO + h[1], LANE_ZERO + h[2],
-                                   LANE_ZERO + h[3], LANE_ZERO + h[4], LANE_ZERO + h[5],
-                                   LANE_ZERO + h[6], LANE_ZERO + h[7], LANE_ZERO + h[8]};
-            const lane half_tau = LANE_ZERO + REAL(0.5) * one_plus_tau, half_beta = LANE_ZERO + REAL(0.5) * beta,
-                       ell = LANE_ZERO + SOFT_ELL(e);
-            const lane_mat3 q = lane_mat3_sub(lane_mat3_scale(half_tau, rs),
-                                              dlsm_compaction_adjoint(own, lane_mat3_scale(half_beta, rs), ell, 1));
-            const lane_mat3 b = lane_mat3_mul_sym(q, inverse);
-            GLOBAL coeff *to = flux + (brc_size)e * 9;
-            to[0] += LANE_ITEM(b.xx, 0), to[1] += LANE_ITEM(b.xy, 0), to[2] += LANE_ITEM(b.xz, 0);
-            to[3] += LANE_ITEM(b.yx, 0), to[4] += LANE_ITEM(b.yy, 0), to[5] += LANE_ITEM(b.yz, 0);
-            to[6] += LANE_ITEM(b.zx, 0), to[7] += LANE_ITEM(b.zy, 0), to[8] += LANE_ITEM(b.zz, 0);
-        }
-    }
-}
-
 /* Takes them out of the forces. */
-KERNEL void soft_take_force(int n, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(int) n_open,
-                            OWN(int) open, OWN(coeff) crack, OWN(coeff) ratio, coeff k_one, coeff one_plus_tau,
+KERNEL void soft_take_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(int) n_open,
+                            OWN(int) open, OWN(coeff) opening, OWN(coeff) ratio, coeff k_one, coeff one_plus_tau,
                             GATHER(coeff) modulus, UPDATE(state) force)
 {
-    FOR_EACH_ITEM(e, n) {
-        if (n_open[e]) {
-            soft_vector f = {0, 0, 0};
-            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-                const brc_size entry = SOFT_ENTRY;
-                if (!open[entry] || !(alive[entry] > 0)) continue;
-                f = soft_add(f, SOFT_BOND_MODULUS(e, neighbour[entry]) * one_plus_tau / ratio[entry],
-                             soft_part(crack, entry, SOFT_OPENING));
+    FOR_EACH_ITEM(group, n_groups) {
+        const members who = members_of_group(group, row_start);
+        if (soft_has_open(who, n_open)) {
+            lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
+            for (int slot = who.begin; slot < who.end; ++slot) {
+                if (!soft_slot_open(who, open, slot)) continue;
+                const lane_vec3 w = lane_vec3_scale(members_row1(who, alive, slot), members_row3(who, opening, slot));
+                const lane k = soft_bond_modulus(who, neighbour, modulus, k_one, slot) * one_plus_tau /
+                               members_row1(who, ratio, slot);
+                f = lane_vec3_add(f, lane_vec3_scale(k, w));
             }
-            GLOBAL state *to = force + (brc_size)e * 3;
-            to[0] -= (state)f.x, to[1] -= (state)f.y, to[2] -= (state)f.z;
+            GLOBAL state *to = force + (brc_size)who.first * 3;
+#define TAKE(l)                                                                                                        \
+    to[0x##l * 3] -= (state)LANE_ITEM(f.x, l), to[0x##l * 3 + 1] -= (state)LANE_ITEM(f.y, l),                          \
+        to[0x##l * 3 + 2] -= (state)LANE_ITEM(f.z, l);
+            LANE_EACH(TAKE)
+#undef TAKE
         }
     }
 }
-
-/* Force of a bond on its own element [N]: dlsm_bond_force. */
-LAW soft_vector soft_bond_force(GATHER(coeff) flux, GATHER(coeff) bond_part, int e, int j, soft_vector s, coeff spring,
-                                coeff ratio, soft_vector elastic_jump)
-{
-    soft_vector f = soft_add(soft_times(flux, e, s), REAL(1), soft_times(flux, j, s));
-#if BRC_MANY_MATERIALS
-    f = soft_add(f, spring, soft_add(soft_times(bond_part, e, s), REAL(1), soft_times(bond_part, j, s)));
-#endif
-    return soft_add(f, spring / ratio, elastic_jump);
-}
-
-/* How unevenly the two sides of a face pull [N]: what the opening of either side alone does work against; the same seen
- * from both. With one material the flux holds the bond's own part too, which depends on what both sides open. */
-LAW soft_vector soft_uneven(GATHER(coeff) flux, GATHER(coeff) gradient, int e, int j, soft_vector s, coeff k_one,
-                            coeff ell_one, coeff beta, coeff one_plus_tau)
-{
-    soft_vector d = soft_add(soft_times(flux, e, s), REAL(-1), soft_times(flux, j, s));
-#if BRC_MANY_MATERIALS
-    (void)gradient, (void)k_one, (void)ell_one, (void)beta, (void)one_plus_tau;
-#else
-    const lane_vec3 face = {LANE_ZERO + s.x, LANE_ZERO + s.y, LANE_ZERO + s.z};
-    const lane ell = LANE_ZERO + ell_one;
-    for (int side = 0; side < 2; ++side) {
-        GLOBAL const coeff *p = gradient + (brc_size)(side ? j : e) * 9;
-        const lane_mat3 h = {LANE_ZERO + p[0], LANE_ZERO + p[1], LANE_ZERO + p[2], LANE_ZERO + p[3], LANE_ZERO + p[4],
-                             LANE_ZERO + p[5], LANE_ZERO + p[6], LANE_ZERO + p[7], LANE_ZERO + p[8]};
-        const lane_vec3 along = lane_mat3_mul_vec(h, face), compact = dlsm_compaction_along(h, along, face, ell, 1);
-        const coeff half_k = side ? REAL(0.5) * k_one : REAL(-0.5) * k_one;
-        const soft_vector m = {LANE_ITEM(compact.x, 0), LANE_ITEM(compact.y, 0), LANE_ITEM(compact.z, 0)};
-        const soft_vector g = {LANE_ITEM(along.x, 0), LANE_ITEM(along.y, 0), LANE_ITEM(along.z, 0)};
-        d = soft_add(d, half_k, soft_add(soft_scale(beta, m), -one_plus_tau, g));
-    }
-#endif
-    return d;
-}
-
-/* Mean of the two cells' stress in the present frame, sym(P F_H^T) [Pa]. */
-LAW failure_stress soft_mean_stress(GATHER(coeff) gradient, GATHER(coeff) stress, int i, int j)
-{
-    failure_stress sum = {0, 0, 0, 0, 0, 0};
-    for (int side = 0; side < 2; ++side) {
-        GLOBAL const coeff *h = gradient + (brc_size)(side ? j : i) * 9, *p = stress + (brc_size)(side ? j : i) * 9;
-        coeff t[9];
-        for (int a = 0; a < 3; ++a)
-            for (int b = 0; b < 3; ++b)
-                t[3 * a + b] =
-                    p[3 * a + b] + p[3 * a] * h[3 * b] + p[3 * a + 1] * h[3 * b + 1] + p[3 * a + 2] * h[3 * b + 2];
-        sum.xx += REAL(0.5) * t[0], sum.yy += REAL(0.5) * t[4], sum.zz += REAL(0.5) * t[8];
-        sum.yz += REAL(0.25) * (t[5] + t[7]), sum.xz += REAL(0.25) * (t[2] + t[6]),
-            sum.xy += REAL(0.25) * (t[1] + t[3]);
-    }
-    return sum;
-}
-
-/* Area vector in the present frame [m^2], and the axis of the crack, from what it was in the undeformed body. */
-LAW soft_vector soft_turned(GATHER(coeff) gradient, int i, int j, soft_vector a)
-{
-    return soft_add(a, REAL(0.5), soft_add(soft_times(gradient, i, a), REAL(1), soft_times(gradient, j, a)));
-}
-/* Back again, of a direction and small strains: by the transpose. */
-LAW soft_vector soft_turned_back(GATHER(coeff) gradient, int i, int j, soft_vector a)
-{
-    GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
-    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[3] + q[3]) * a.y + (p[6] + q[6]) * a.z,
-                             (p[1] + q[1]) * a.x + (p[4] + q[4]) * a.y + (p[7] + q[7]) * a.z,
-                             (p[2] + q[2]) * a.x + (p[5] + q[5]) * a.y + (p[8] + q[8]) * a.z};
-    return soft_add(a, REAL(0.5), sum);
-}
-LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
 
 /* Before the sweeps of a step: faces that nothing holds go on opening as in the last step, so that what the sweeps
  * leave of the balance is no drag on sides that fly apart. */
-KERNEL void soft_coast(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(coeff) alive, OWN(int) n_open,
-                       OWN(int) open, OWN(int) lead, GATHER(coeff) gradient, SCATTER(coeff) crack)
+KERNEL void soft_coast(int n_items, int n_faces, OWN(int) face_row, OWN(int) face_entry, GATHER(int) neighbour,
+                       GATHER(int) twin, GATHER(int) open, GATHER(coeff) area, GATHER(coeff) ratio,
+                       GATHER(coeff) gradient, SCATTER(coeff) crack, SCATTER(coeff) opening)
 {
-    FOR_EACH_ITEM(e, n) {
-        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
-            if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
-            const soft_vector none = {0, 0, 0};
-            soft_vector shift = none;
-            if (open[entry] == SOFT_APART) {
-                const soft_vector axis =
-                    soft_unit(soft_turned(gradient, e, neighbour[entry], soft_part(crack, entry, SOFT_AXIS)));
-                const soft_vector before = soft_part(crack, entry, SOFT_OPENING),
-                                  last = soft_part(crack, entry, SOFT_SHIFT), now = soft_add(before, REAL(1), last);
-                if (soft_dot(before, axis) > 0 && soft_dot(now, axis) > 0) {
-                    shift = last;
-                    soft_put(crack, entry, SOFT_OPENING, now),
-                        soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
-                }
-            }
-            soft_put(crack, entry, SOFT_SHIFT, shift), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), shift));
-            soft_put(crack, entry, SOFT_SIDE_SHIFT, none), soft_put(crack, other, SOFT_SIDE_SHIFT, none);
+    FOR_EACH_ITEM(item, n_items) {
+        const soft_faces f = soft_faces_at(item, n_faces, face_row, face_entry, neighbour, area, ratio);
+        const lane_int other = soft_ints(twin, f.entry);
+        const lane_vec3 none = lane_vec3_zero(), before = soft_rows(opening, f.entry);
+        lane_mask flies = soft_apart(f, open);
+        lane_vec3 shift = none, now = before;
+        if (LANE_SOME(flies)) {
+            const lane_vec3 a = soft_vector_of(crack, f.entry, SOFT_AXIS);
+            const lane_vec3 axis = soft_unit_of(soft_turned(a, lane_mat3_mul_vec(lane_gather9(gradient, f.e), a),
+                                                            lane_mat3_mul_vec(lane_gather9(gradient, f.j), a)));
+            const lane_vec3 last = soft_vector_of(crack, f.entry, SOFT_SHIFT), on = lane_vec3_add(before, last);
+            flies = flies & LANE_LESS(LANE_ZERO, lane_vec3_dot(before, axis)) &
+                    LANE_LESS(LANE_ZERO, lane_vec3_dot(on, axis));
+            shift = lane_vec3_where(flies, last, none), now = lane_vec3_where(flies, on, before);
         }
+#define COAST(l)                                                                                                       \
+    if (item * W + 0x##l < n_faces) {                                                                                  \
+        const int own = LANE_ITEM(f.entry, l), its = LANE_ITEM(other, l);                                              \
+        soft_put_rows(opening, own, its, REAL(-1), SOFT_LANE(now, l));                                                 \
+        soft_put(crack, own, SOFT_SHIFT, SOFT_LANE(shift, l));                                                         \
+        soft_put(crack, own, SOFT_SIDE_SHIFT, SOFT_LANE(none, l));                                                     \
+    }
+        LANE_EACH(COAST)
+#undef COAST
     }
 }
 
-/* A face is open wider than ever, by w and v together (both): its cohesion has worn, and its crack leans as it opens.
- * edge: |v|^2. */
-LAW void soft_wear(SCATTER(coeff) crack, brc_size entry, brc_size other, soft_vector now, soft_vector normal,
-                   coeff edge, coeff both, coeff steepest)
+/* What is left of the energy of a face that opens by `now`, edge: |v|^2, both: of w and v together; its crack leans as
+ * it opens. */
+LAW lane soft_leans(lane cosine, lane_vec3 now, lane_vec3 normal, lane edge, lane both, coeff steepest)
 {
-    const coeff across = soft_dot(now, normal) / SQRT(soft_dot(normal, normal));
-    const coeff tilt = SOFT_IS_SLIDING(entry)
-                           ? REAL(1)
-                           : soft_tilt(SOFT_NUMBER(entry, COSINE),
-                                       (across < 0 ? SQRT(edge) : SQRT(across * across + edge)) / both, steepest);
-    SOFT_NUMBER(entry, WIDEST) = both, SOFT_NUMBER(other, WIDEST) = both;
-    SOFT_NUMBER(entry, TILT) = tilt, SOFT_NUMBER(other, TILT) = tilt;
+    const lane across = lane_vec3_dot(now, normal) / soft_size(normal);
+    const lane far = LANE_WHERE(LANE_LESS(across, LANE_ZERO), edge, across * across + edge);
+    return soft_tilt(cosine, LANE_SQRT(far) / both, steepest);
 }
 
 /* The openings of the step whose motion has just been done, by the fluxes at the new place and the old openings: each
  * goes where its cohesion balances what the bond would pull with, by the stiffness of the two cells, along their axes
  * and across; so a sweep over all faces at once comes nearer to the balance of all. is_last: of the sweeps of this
- * step; only the last one wears the cohesion, what went too far before comes back for nothing. A face that would close
- * further than shut only slides. */
-KERNEL void soft_move(int n, int is_last, coeff stiffen, coeff steepest, coeff friction, coeff retention, coeff release,
-                      OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(coeff) alive, OWN(int) n_open,
-                      OWN(int) open, OWN(int) lead, SCATTER(coeff) crack, OWN(coeff) area, OWN(coeff) ratio,
-                      GATHER(coeff) inv_shape, GATHER(coeff) inv_volume, GATHER(coeff) plane, GATHER(coeff) shear,
-                      GATHER(coeff) reach, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                      GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
-                      GATHER(coeff) flux, GATHER(coeff) bond_part)
+ * step; only the last one wears the cohesion of a face that is open wider than ever, by w and v together: what went
+ * too far before comes back for nothing. A face that would close further than shut only slides. */
+KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face_entry, int is_last, coeff stiffen,
+                      coeff steepest, coeff friction, coeff retention, coeff release, GATHER(int) neighbour,
+                      GATHER(int) twin, GATHER(int) open, SCATTER(coeff) crack, SCATTER(coeff) opening,
+                      SCATTER(coeff) edge_opening, GATHER(coeff) area, GATHER(coeff) ratio, GATHER(coeff) inv_shape,
+                      GATHER(coeff) inv_volume, GATHER(coeff) plane, GATHER(coeff) shear, GATHER(coeff) reach,
+                      coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GATHER(coeff) modulus,
+                      GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) flux,
+                      GATHER(coeff) bond_part)
 {
-    FOR_EACH_ITEM(e, n) {
-        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
-            if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
-            const int j = neighbour[entry];
-            const coeff bond_modulus = SOFT_BOND_MODULUS(e, j);
-            const soft_face face = {SOFT_NUMBER(entry, START), SOFT_NUMBER(entry, ENERGY) * SOFT_NUMBER(entry, TILT),
-                                    SOFT_NUMBER(entry, EXPONENTIAL) > 0};
-            const soft_vector s = soft_area(area, entry), before = soft_part(crack, entry, SOFT_OPENING);
-            const soft_vector own = soft_pull_of(inv_shape, e, s), theirs = soft_pull_of(inv_shape, j, s);
-            const soft_vector pull =
-                soft_bond_force(flux, bond_part, e, j, s, bond_modulus * one_plus_tau, ratio[entry],
-                                soft_add(soft_jump(displacement, e, j), REAL(-1), before));
-            const coeff share = REAL(0.5) * ratio[entry] * soft_dot(s, soft_add(own, REAL(1), theirs));
-            const coeff bond = stiffen * soft_bond_stiffness(bond_modulus, ratio[entry], share, beta, one_plus_tau);
-            const soft_tensor nothing = {0, 0, 0, 0, 0, 0}, spring = {bond, bond, bond, 0, 0, 0};
-            const soft_tensor here = soft_add_cell(nothing, own, reach[e], stiffen / inv_volume[e], plane[e], shear[e]);
-            const soft_tensor there =
-                soft_add_cell(nothing, theirs, reach[j], stiffen / inv_volume[j], plane[j], shear[j]);
-            const soft_tensor sides = soft_tensor_add(here, REAL(1), there),
-                              stiffness = soft_tensor_add(sides, REAL(1), spring);
-            const soft_vector normal = soft_turned(gradient, e, j, s),
-                              axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
-            const int slides = SOFT_IS_SLIDING(entry);
-            const soft_vector none = {0, 0, 0};
-            const coeff keeps = soft_keeps(SOFT_NUMBER(entry, WIDEST), release * ratio[entry] * SQRT(soft_dot(s, s)));
-            const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
-            const coeff whole = slides ? soft_force(face, SOFT_NUMBER(entry, WIDEST)) / face.start : 0;
-            const soft_vector carried =
-                soft_scale(slides ? keeps * (REAL(1) - whole) : keeps, soft_carried(mean, axis, normal));
-            const soft_vector passed = slides ? soft_scale(whole, soft_passed(mean, axis, normal)) : none;
-            const soft_vector drive =
-                soft_add(soft_add(pull, REAL(1), soft_tensor_times(stiffness, before)), REAL(-1), passed);
-            const coeff wide = SOFT_NUMBER(entry, WIDEST), was = SQRT(soft_dot(before, before)),
-                        at = was > wide ? was : wide;
-            const soft_vector found = soft_balance(
-                face, wide, drive, stiffness, at > 0 ? soft_force(face, at) / at : 0, axis, before, friction, carried,
-                retention * soft_keeps(wide, REAL(2) * soft_end(face)) * SQRT(soft_dot(carried, carried)));
-            const soft_vector now = slides ? found : soft_outside(found, normal);
-            const coeff w = SQRT(soft_dot(now, now)), push = -soft_dot(pull, axis), least = w > wide ? w : wide;
-            const coeff even = SOFT_UNEVEN_HELD * (SQRT(soft_dot(carried, carried)) + (push > 0 ? push : 0));
-            const soft_vector side_before = soft_part(crack, entry, SOFT_SIDE);
-            const soft_vector uneven =
-                soft_add(soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau), REAL(-1),
-                         soft_tensor_times(soft_tensor_add(here, REAL(-1), there), soft_add(now, REAL(-1), before)));
-            const int rests =
-                slides || (open[entry] == SOFT_APART && soft_dot(side_before, side_before) < SOFT_UNEVEN_RESTS * w * w);
-            const soft_vector turn =
-                rests ? none : soft_side(face, least, uneven, stiffness, side_before, even, normal);
-            const soft_vector side = soft_add(side_before, REAL(1), turn),
-                              turned = soft_add(soft_part(crack, entry, SOFT_SIDE_SHIFT), REAL(1), turn);
-            const coeff edge = soft_dot(side, side), both = SQRT(w * w + edge);
-            soft_put(crack, entry, SOFT_SIDE, side), soft_put(crack, other, SOFT_SIDE, side);
-            soft_put(crack, entry, SOFT_SIDE_SHIFT, turned), soft_put(crack, other, SOFT_SIDE_SHIFT, turned);
-            const soft_vector added =
-                soft_add(soft_part(crack, entry, SOFT_SHIFT), REAL(1), soft_add(now, REAL(-1), before));
-            soft_put(crack, entry, SOFT_OPENING, now), soft_put(crack, other, SOFT_OPENING, soft_scale(REAL(-1), now));
-            soft_put(crack, entry, SOFT_SHIFT, added), soft_put(crack, other, SOFT_SHIFT, soft_scale(REAL(-1), added));
-            if (is_last && both > wide) soft_wear(crack, entry, other, now, normal, edge, both, steepest);
+    FOR_EACH_ITEM(item, n_items) {
+        const soft_faces f = soft_faces_at(item, n_faces, face_row, face_entry, neighbour, area, ratio);
+        const lane_vec3 s = f.area, none = lane_vec3_zero();
+        soft_faces_ahead(item, n_faces, face_entry, crack, opening, edge_opening, area);
+        const soft_record r = soft_record_of(crack, f.entry);
+        const soft_cell own = soft_cell_of(f.e, s, r.axis, flux, bond_part, gradient, stress, k_one, ell_one, beta,
+                                           one_plus_tau),
+                        beside = soft_cell_of(f.j, s, r.axis, flux, bond_part, gradient, stress, k_one, ell_one, beta,
+                                              one_plus_tau);
+        const lane_vec3 normal = soft_turned(s, own.along_area, beside.along_area),
+                        axis = soft_unit_of(soft_turned(r.axis, own.along_axis, beside.along_axis));
+        const lane k = soft_modulus(f, modulus, k_one);
+        const lane_vec3 before = soft_rows(opening, f.entry),
+                        pull = soft_bond_force(own.pulls, beside.pulls, k * one_plus_tau, f.ratio,
+                                               lane_vec3_sub(soft_jump(f, displacement), before));
+        const lane_vec3 given = soft_pull_of(f.e, s, inv_shape), taken = soft_pull_of(f.j, s, inv_shape);
+        const lane share = REAL(0.5) * f.ratio * lane_vec3_dot(s, lane_vec3_add(given, taken));
+        const lane bond = stiffen * soft_bond_stiffness(k, f.ratio, share, beta, one_plus_tau);
+        const lane_sym3 here = soft_draws_back(f.e, given, stiffen, inv_volume, plane, shear, reach),
+                        there = soft_draws_back(f.j, taken, stiffen, inv_volume, plane, shear, reach),
+                        stiffness = lane_sym3_scale_shift(lane_number(1), lane_sym3_add(here, there), bond);
+        const soft_face law = soft_law_of(r);
+        const lane_mask slides = soft_slides(r);
+        lane keeps = soft_keeps(r.widest, release * f.ratio * soft_size(s));
+        const lane_sym3 mean = soft_mean_stress(own, beside);
+        lane_vec3 drive = lane_vec3_add(pull, lane_sym3_mul_vec(stiffness, before));
+        if (LANE_SOME(slides)) {
+            const lane whole = LANE_WHERE(slides, soft_force(law, r.widest) / law.start, LANE_ZERO);
+            keeps = keeps * (REAL(1) - whole);
+            drive = lane_vec3_sub(
+                drive, lane_vec3_where(slides, lane_vec3_scale(whole, soft_passed(mean, axis, normal)), none));
         }
+        const lane_vec3 carried = lane_vec3_scale(keeps, soft_carried(mean, axis, normal));
+        const lane held = soft_size(carried);
+        const lane_vec3 found =
+            soft_balance(law, r.widest, drive, stiffness, soft_secant(law, lane_max(soft_size(before), r.widest)), axis,
+                         before, friction, carried, retention * soft_keeps(r.widest, REAL(2) * soft_end(law)) * held);
+        const lane_vec3 now = lane_vec3_where(slides, found, soft_outside(found, normal));
+        const lane w = soft_size(now), even = SOFT_UNEVEN_HELD * (held + soft_above(-lane_vec3_dot(pull, axis), 0));
+        const lane_vec3 side_before = soft_rows(edge_opening, f.entry);
+        const lane_vec3 uneven =
+            lane_vec3_sub(soft_uneven(own.pulls, beside.pulls),
+                          lane_sym3_mul_vec(lane_sym3_sub(here, there), lane_vec3_sub(now, before)));
+        const lane_mask rests = slides | (soft_apart(f, open) & LANE_LESS(lane_vec3_dot(side_before, side_before),
+                                                                          SOFT_UNEVEN_RESTS * w * w));
+        const lane_vec3 turn =
+            soft_side(law, lane_max(w, r.widest), uneven, stiffness, side_before, even, normal, ~rests);
+        const lane_vec3 side = lane_vec3_add(side_before, turn), edge_shift = lane_vec3_add(r.edge_shift, turn),
+                        shift = lane_vec3_add(r.shift, lane_vec3_sub(now, before));
+        const lane edge = lane_vec3_dot(side, side), both = LANE_SQRT(w * w + edge);
+        const lane_mask wears = LANE_LESS(r.widest, both);
+        const lane leans = LANE_WHERE(slides, lane_number(1), soft_leans(r.cosine, now, normal, edge, both, steepest));
+        const lane widest = LANE_WHERE(wears, both, r.widest), tilt = LANE_WHERE(wears, leans, r.tilt);
+        const lane_int other = soft_ints(twin, f.entry);
+#define MOVE(l)                                                                                                        \
+    if (item * W + 0x##l < n_faces) {                                                                                  \
+        const int mine = LANE_ITEM(f.entry, l), its = LANE_ITEM(other, l);                                             \
+        soft_put_rows(opening, mine, its, REAL(-1), SOFT_LANE(now, l));                                                \
+        soft_put_rows(edge_opening, mine, its, REAL(1), SOFT_LANE(side, l));                                           \
+        soft_put(crack, mine, SOFT_SHIFT, SOFT_LANE(shift, l));                                                        \
+        soft_put(crack, mine, SOFT_SIDE_SHIFT, SOFT_LANE(edge_shift, l));                                              \
+        if (is_last) soft_put_number(crack, mine, SOFT_WIDEST, LANE_ITEM(widest, l));                                  \
+        if (is_last) soft_put_number(crack, mine, SOFT_TILT, LANE_ITEM(tilt, l));                                      \
+    }
+        LANE_EACH(MOVE)
+#undef MOVE
     }
 }
 
-/* Forces of the open bonds as they are now. book: 1: the work of the last openings (trapezoidal rule, each side half)
- * goes to spent and, but for what is still held, to lost [n]; bonds at the end of their cohesion are marked. found [n].
- * release: gap over the length of the bond from which on sides that carry pushes along the crack, more than a tenth of
- * what they held at the onset, stand clear; a fifth of it where they do not: opened by that, the two cells only hinder
- * each other's turning. */
-KERNEL void soft_measure(int n, int book, coeff release, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin,
-                         OWN(coeff) alive, OWN(int) n_open, SCATTER(int) open, OWN(int) lead, SCATTER(coeff) crack,
-                         OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                         GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient,
-                         GATHER(coeff) stress, GATHER(coeff) flux, GATHER(coeff) bond_part, SCATTER(int) mark,
-                         SCATTER(coeff) measure, SCATTER(int) touched, PUT(state) found)
+/* Sides of faces without cohesion that stand clear of each other. release: gap over the length of the bond from which
+ * on sides that carry pushes along the crack, more than a tenth of what they held at the onset, do; a fifth of it where
+ * they do not: opened by that, the two cells only hinder each other's turning. */
+LAW lane_mask soft_parts(soft_faces f, soft_record r, soft_cell own, soft_cell beside, lane_vec3 w, coeff release)
 {
-    FOR_EACH_ITEM(e, n) {
-        int count = 0;
-        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY, other = (brc_size)twin[entry];
-            if (!lead[entry] || !open[entry] || !(alive[entry] > 0)) continue; /* the leading side writes both */
-            const int j = neighbour[entry];
-            const coeff spring = SOFT_BOND_MODULUS(e, j) * one_plus_tau;
-            const soft_face face = {SOFT_NUMBER(entry, START), SOFT_NUMBER(entry, ENERGY) * SOFT_NUMBER(entry, TILT),
-                                    SOFT_NUMBER(entry, EXPONENTIAL) > 0};
-            const soft_vector w = soft_part(crack, entry, SOFT_OPENING), jump = soft_jump(displacement, e, j);
-            const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry), spring,
-                                                      ratio[entry], soft_add(jump, REAL(-1), w));
-            const soft_vector uneven =
-                soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
-            const int slides = SOFT_IS_SLIDING(entry), mode = slides ? CELLS_SHEAR : CELLS_TENSION;
-            coeff given = 0, rubs = 0, holds = SOFT_NUMBER(entry, HELD);
-            if (book) {
-                const coeff turning = slides
-                                          ? 0
-                                          : soft_dot(soft_add(uneven, REAL(1), soft_part(crack, entry, SOFT_SIDE_PULL)),
-                                                     soft_part(crack, entry, SOFT_SIDE_SHIFT));
-                const coeff work = REAL(0.5) * (soft_dot(soft_add(force, REAL(1), soft_part(crack, entry, SOFT_PULL)),
-                                                         soft_part(crack, entry, SOFT_SHIFT)) +
-                                                turning);
-                const soft_vector side = soft_part(crack, entry, SOFT_SIDE);
-                holds = soft_held(face, SOFT_NUMBER(entry, WIDEST), SQRT(soft_dot(w, w) + soft_dot(side, side)));
-                given = work - (holds - SOFT_NUMBER(entry, HELD));
-                if (slides) { /* the rest is friction */
-                    rubs = given;
-                    given = soft_spent(face, SOFT_NUMBER(entry, WIDEST)) - SOFT_NUMBER(entry, SPENT);
-                    rubs -= given;
-                }
-                if (open[entry] != SOFT_APART) SOFT_NUMBER(entry, SPENT) += given, SOFT_NUMBER(other, SPENT) += given;
-                SOFT_NUMBER(entry, HELD) = holds, SOFT_NUMBER(other, HELD) = holds;
-                const soft_vector s = soft_area(area, entry);
-                if (!(SOFT_NUMBER(entry, WIDEST) < soft_end(face)))
-                    STORE_SAME(open + entry, SOFT_APART), STORE_SAME(open + other, SOFT_APART);
-                int clear = open[entry] == SOFT_APART;
-                if (clear) {
-                    const soft_vector axis = soft_unit(soft_turned(gradient, e, j, soft_part(crack, entry, SOFT_AXIS)));
-                    const soft_vector push =
-                        soft_carried(soft_mean_stress(gradient, stress, e, j), axis, soft_turned(gradient, e, j, s));
-                    const coeff much = REAL(0.1) * SOFT_NUMBER(entry, START),
-                                far = release * ratio[entry] * SQRT(soft_dot(s, s));
-                    clear =
-                        soft_is_clear(w, axis, slides || soft_dot(push, push) > much * much ? far : REAL(0.2) * far);
-                }
-                if (clear) {
-                    mark[entry] = mode, mark[other] = mode;
-                    measure[entry] = SOFT_NUMBER(entry, ONSET), measure[other] = SOFT_NUMBER(entry, ONSET);
-                    STORE_SAME(touched + e, 1);
-                    STORE_SAME(touched + j, 1);
-                    count += 1;
-                }
+    const lane_vec3 axis = soft_unit_of(soft_turned(r.axis, own.along_axis, beside.along_axis)),
+                    push = soft_carried(soft_mean_stress(own, beside), axis,
+                                        soft_turned(f.area, own.along_area, beside.along_area));
+    const lane much = REAL(0.1) * r.start, far = release * f.ratio * soft_size(f.area);
+    const lane_mask bears = soft_slides(r) | LANE_LESS(much * much, lane_vec3_dot(push, push));
+    return soft_is_clear(w, axis, LANE_WHERE(bears, far, REAL(0.2) * far));
+}
+
+/* Forces of the open bonds as they are now. book: 1: the work of the last openings (trapezoidal rule, each side half)
+ * goes to spent and, but for what is still held, to lost [n]; bonds at the end of their cohesion are marked, those
+ * whose sides part (soft_parts, release) to break. */
+KERNEL void soft_measure(int n_items, int n_faces, OWN(int) face_row, OWN(int) face_entry, int book, coeff release,
+                         GATHER(int) neighbour, GATHER(int) twin, SCATTER(int) open, SCATTER(coeff) crack,
+                         GATHER(coeff) opening, GATHER(coeff) edge_opening, GATHER(coeff) area, GATHER(coeff) ratio,
+                         coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau, GATHER(coeff) modulus,
+                         GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) flux,
+                         GATHER(coeff) bond_part, SCATTER(int) mark, SCATTER(coeff) measure, SCATTER(int) touched)
+{
+    FOR_EACH_ITEM(item, n_items) {
+        const soft_faces f = soft_faces_at(item, n_faces, face_row, face_entry, neighbour, area, ratio);
+        const soft_record r = soft_record_of(crack, f.entry);
+        const soft_cell own = soft_cell_of(f.e, f.area, r.axis, flux, bond_part, gradient, stress, k_one, ell_one, beta,
+                                           one_plus_tau),
+                        beside = soft_cell_of(f.j, f.area, r.axis, flux, bond_part, gradient, stress, k_one, ell_one,
+                                              beta, one_plus_tau);
+        const lane_vec3 w = soft_rows(opening, f.entry);
+        const lane_vec3 force = soft_bond_force(own.pulls, beside.pulls, soft_modulus(f, modulus, k_one) * one_plus_tau,
+                                                f.ratio, lane_vec3_sub(soft_jump(f, displacement), w));
+        const lane_vec3 uneven = soft_uneven(own.pulls, beside.pulls);
+        const soft_face law = soft_law_of(r);
+        const lane_mask slides = soft_slides(r);
+        const lane onset = soft_number(crack, f.entry, SOFT_ONSET);
+        lane given = LANE_ZERO, rubs = LANE_ZERO, holds = soft_number(crack, f.entry, SOFT_HELD),
+             spent = soft_number(crack, f.entry, SOFT_SPENT);
+        lane apart = LANE_ZERO, clear = LANE_ZERO;
+        if (book) {
+            const lane_vec3 side = soft_rows(edge_opening, f.entry);
+            const lane turning = LANE_WHERE(
+                slides, LANE_ZERO,
+                lane_vec3_dot(lane_vec3_add(uneven, soft_vector_of(crack, f.entry, SOFT_SIDE_PULL)), r.edge_shift));
+            const lane work =
+                REAL(0.5) *
+                (lane_vec3_dot(lane_vec3_add(force, soft_vector_of(crack, f.entry, SOFT_PULL)), r.shift) + turning);
+            const lane before = holds;
+            holds = soft_held(law, r.widest, LANE_SQRT(lane_vec3_dot(w, w) + lane_vec3_dot(side, side)));
+            given = work - (holds - before);
+            if (LANE_SOME(slides)) { /* the rest is friction */
+                const lane took = soft_spent(law, r.widest) - spent;
+                rubs = LANE_WHERE(slides, given - took, rubs);
+                given = LANE_WHERE(slides, took, given);
             }
-            SOFT_NUMBER(entry, BOOKED) = given, SOFT_NUMBER(other, BOOKED) = given;
-            soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
-            const soft_vector last = slides ? (soft_vector){rubs, 0, 0} : uneven;
-            soft_put(crack, entry, SOFT_SIDE_PULL, last), soft_put(crack, other, SOFT_SIDE_PULL, last);
+            const lane_mask was = soft_apart(f, open), ends = was | ~LANE_LESS(r.widest, soft_end(law));
+            spent = LANE_WHERE(was, spent, spent + given);
+            if (LANE_SOME(ends)) {
+                apart = LANE_WHERE(ends, lane_number(1), apart);
+                clear = LANE_WHERE(ends & soft_parts(f, r, own, beside, w, release), lane_number(1), clear);
+            }
         }
-        found[e] = (state)count;
+        const lane_vec3 last = lane_vec3_where(slides, (lane_vec3){rubs, LANE_ZERO, LANE_ZERO}, uneven);
+        const lane_int other = soft_ints(twin, f.entry);
+#define MEASURE(l)                                                                                                     \
+    if (item * W + 0x##l < n_faces) {                                                                                  \
+        const int mine = LANE_ITEM(f.entry, l), its = LANE_ITEM(other, l);                                             \
+        soft_put_numbers(crack, mine, its, SOFT_SPENT, LANE_ITEM(spent, l));                                           \
+        soft_put_numbers(crack, mine, its, SOFT_HELD, LANE_ITEM(holds, l));                                            \
+        soft_put_numbers(crack, mine, its, SOFT_BOOKED, LANE_ITEM(given, l));                                          \
+        soft_put_numbers(crack, mine, its, SOFT_RUBS, LANE_ITEM(last.x, l));                                           \
+        soft_put(crack, mine, SOFT_SIDE_PULL, SOFT_LANE(last, l));                                                     \
+        soft_put(crack, mine, SOFT_PULL, SOFT_LANE(force, l));                                                         \
+        if (LANE_ITEM(apart, l) > 0) STORE_SAME(open + mine, SOFT_APART), STORE_SAME(open + its, SOFT_APART);          \
+        if (LANE_ITEM(clear, l) > 0) {                                                                                 \
+            const int mode = LANE_ITEM(r.turns, l) > REAL(1) ? CELLS_SHEAR : CELLS_TENSION;                            \
+            mark[mine] = mode, mark[its] = mode;                                                                       \
+            measure[mine] = LANE_ITEM(onset, l), measure[its] = LANE_ITEM(onset, l);                                   \
+            STORE_SAME(touched + LANE_ITEM(f.e, l), 1);                                                                \
+            STORE_SAME(touched + LANE_ITEM(f.j, l), 1);                                                                \
+        }                                                                                                              \
+    }
+        LANE_EACH(MEASURE)
+#undef MEASURE
     }
 }
 
 /* Each element's half of what its open bonds booked, rubbed [n] what broken ones do to each other; bonds whose cohesion
- * ended are broken from then on, though their sides still bear on each other. */
+ * ended are broken from then on, though their sides still bear on each other. found [n]: bonds that are marked. */
 KERNEL void soft_book(int n, int step, OWN(int) row_start, OWN(coeff) alive, OWN(int) n_open, OWN(int) open,
-                      OWN(coeff) crack, UPDATE(int) break_step, PUT(int) break_mode, PUT(coeff) break_stress,
-                      PUT(coeff) break_energy, UPDATE(state) lost, UPDATE(state) rubbed, UPDATE(state) broken)
+                      OWN(int) lead, OWN(int) mark, PUT(state) found, OWN(coeff) crack, UPDATE(int) break_step,
+                      PUT(int) break_mode, PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) lost,
+                      UPDATE(state) rubbed, UPDATE(state) broken)
 {
     FOR_EACH_ITEM(e, n) {
+        int count = 0;
         for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
             if (!open[entry] || !(alive[entry] > 0)) continue;
             const int slides = SOFT_IS_SLIDING(entry);
+            count += lead[entry] && mark[entry];
             GLOBAL state *to = break_step[entry] && !slides ? rubbed : lost;
             to[e] += STATE(0.5) * (state)SOFT_NUMBER(entry, BOOKED);
             if (slides) rubbed[e] += STATE(0.5) * (state)SOFT_NUMBER(entry, RUBS);
@@ -374,47 +268,49 @@ KERNEL void soft_book(int n, int step, OWN(int) row_start, OWN(coeff) alive, OWN
             break_energy[entry] = SOFT_NUMBER(entry, SPENT);
             broken[e] += 1;
         }
+        found[e] = (state)count;
     }
 }
 
 /* After dlsm_energy: the bonds' energy of J - w in place of that of J, and what the cohesion holds; half to each side
  * [J] [n]. */
-KERNEL void soft_energy(int n, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(int) n_open, OWN(int) open,
-                        OWN(coeff) crack, OWN(coeff) area, OWN(coeff) ratio, GATHER(state) displacement,
-                        GATHER(coeff) gradient, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
-                        GATHER(coeff) modulus, GATHER(coeff) ell_of, UPDATE(state) stabilisation)
+KERNEL void soft_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(int) n_open,
+                        OWN(int) open, OWN(coeff) crack, OWN(coeff) opening, OWN(coeff) area, OWN(coeff) ratio,
+                        GATHER(state) displacement, GATHER(coeff) gradient, coeff k_one, coeff ell_one, coeff beta,
+                        coeff one_plus_tau, GATHER(coeff) modulus, GATHER(coeff) ell_of, UPDATE(state) stabilisation)
 {
-    FOR_EACH_ITEM(e, n) {
-        for (int slot = row_start[e / C]; n_open[e] && slot < row_start[e / C + 1]; ++slot) {
-            const brc_size entry = SOFT_ENTRY;
-            if (!open[entry] || !(alive[entry] > 0)) continue;
-            const int j = neighbour[entry];
-            GLOBAL const coeff *a = gradient + (brc_size)e * 9, *b = gradient + (brc_size)j * 9;
-            const lane_mat3 h = {LANE_ZERO + a[0], LANE_ZERO + a[1], LANE_ZERO + a[2],
-                                 LANE_ZERO + a[3], LANE_ZERO + a[4], LANE_ZERO + a[5],
-                                 LANE_ZERO + a[6], LANE_ZERO + a[7], LANE_ZERO + a[8]};
-            const lane_mat3 h_j = {LANE_ZERO + b[0], LANE_ZERO + b[1], LANE_ZERO + b[2],
-                                   LANE_ZERO + b[3], LANE_ZERO + b[4], LANE_ZERO + b[5],
-                                   LANE_ZERO + b[6], LANE_ZERO + b[7], LANE_ZERO + b[8]};
+    FOR_EACH_ITEM(group, n_groups) {
+        const members who = members_of_group(group, row_start);
+        if (soft_has_open(who, n_open)) {
+            const lane_mat3 h = lane_gather9(gradient, who.own);
+            const state_vec3 u = state_gather3(displacement, who.own);
+            const lane half_one = lane_number(REAL(0.5));
+            lane_state sum = state_load(stabilisation, (brc_size)who.first);
+            for (int slot = who.begin; slot < who.end; ++slot) {
+                if (!soft_slot_open(who, open, slot)) continue;
+                const lane_int j = members_neighbour(who, neighbour, slot);
+                const lane_mat3 h_j = lane_gather9(gradient, j);
 #if BRC_MANY_MATERIALS
-            const lane ell = LANE_ZERO + ell_of[e], ell_j = LANE_ZERO + ell_of[j];
+                const lane ell = members_number(who, ell_of), ell_j = gather_component(ell_of, j);
 #else
-            const lane ell = LANE_ZERO + ell_one, ell_j = ell;
+                const lane ell = lane_number(ell_one), ell_j = ell;
 #endif
-            const lane k = LANE_ZERO + SOFT_BOND_MODULUS(e, j), half_one = LANE_ZERO + REAL(0.5);
-            const lane_mat3 mean = lane_mat3_scale(half_one, lane_mat3_add(h, h_j));
-            const lane_mat3 compaction =
-                lane_mat3_scale(half_one, lane_mat3_add(dlsm_compaction(h, ell, 1), dlsm_compaction(h_j, ell_j, 1)));
-            const soft_vector s = soft_area(area, entry), jump = soft_jump(displacement, e, j),
-                              elastic = soft_add(jump, REAL(-1), soft_part(crack, entry, SOFT_OPENING));
-            const lane_vec3 face = {LANE_ZERO + s.x, LANE_ZERO + s.y, LANE_ZERO + s.z};
-            const lane_vec3 with = {LANE_ZERO + jump.x, LANE_ZERO + jump.y, LANE_ZERO + jump.z};
-            const lane_vec3 without = {LANE_ZERO + elastic.x, LANE_ZERO + elastic.y, LANE_ZERO + elastic.z};
-            const lane q = LANE_ZERO + ratio[entry];
-            const lane more = dlsm_bond_energy(with, mean, compaction, face, q, k, beta, one_plus_tau);
-            const lane less = dlsm_bond_energy(without, mean, compaction, face, q, k, beta, one_plus_tau);
-            stabilisation[e] +=
-                STATE(0.5) * (state)(LANE_ITEM(less, 0) - LANE_ITEM(more, 0) + SOFT_NUMBER(entry, HELD));
+                const lane k = soft_bond_modulus(who, neighbour, modulus, k_one, slot);
+                const lane_mat3 mean = lane_mat3_scale(half_one, lane_mat3_add(h, h_j));
+                const lane_mat3 compaction = lane_mat3_scale(
+                    half_one, lane_mat3_add(dlsm_compaction(h, ell, 1), dlsm_compaction(h_j, ell_j, 1)));
+                const lane_vec3 s = members_face3(who, area, slot),
+                                jump = state_vec3_difference(state_gather3(displacement, j), u),
+                                elastic = lane_vec3_sub(jump, members_row3(who, opening, slot));
+                const lane q = members_row1(who, ratio, slot);
+                const lane more = dlsm_bond_energy(jump, mean, compaction, s, q, k, beta, one_plus_tau),
+                           less = dlsm_bond_energy(elastic, mean, compaction, s, q, k, beta, one_plus_tau);
+                const lane held = soft_number(crack, lane_own(slot * C + who.lane0), SOFT_HELD);
+                sum += STATE(0.5) * STATE_FROM_LANE(members_row1(who, alive, slot) * (less - more + held));
+            }
+#define PUT_LANE(l) stabilisation[who.first + 0x##l] = LANE_ITEM(sum, l);
+            LANE_EACH(PUT_LANE)
+#undef PUT_LANE
         }
     }
 }

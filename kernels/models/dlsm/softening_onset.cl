@@ -39,6 +39,51 @@ LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shea
            failure_possible(stress, (failure_limits){limit, 0, shear}, (failure_shear){0, slope, slope});
 }
 
+LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
+/* The same number in every lane; that of the first. */
+LAW lane_vec3 soft_lanes(soft_vector a) { return (lane_vec3){LANE_ZERO + a.x, LANE_ZERO + a.y, LANE_ZERO + a.z}; }
+LAW failure_stress soft_first(lane_sym3 a)
+{
+    return (failure_stress){LANE_ITEM(a.xx, 0), LANE_ITEM(a.yy, 0), LANE_ITEM(a.zz, 0),
+                            LANE_ITEM(a.yz, 0), LANE_ITEM(a.xz, 0), LANE_ITEM(a.xy, 0)};
+}
+LAW lane_sym3 soft_spread(failure_stress a)
+{
+    return (lane_sym3){LANE_ZERO + a.xx, LANE_ZERO + a.yy, LANE_ZERO + a.zz,
+                       LANE_ZERO + a.yz, LANE_ZERO + a.xz, LANE_ZERO + a.xy};
+}
+/* A direction of the present body as it was in the undeformed one, of small strains: by the transpose. */
+LAW soft_vector soft_turned_back(GATHER(coeff) gradient, int i, int j, soft_vector a)
+{
+    GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
+    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[3] + q[3]) * a.y + (p[6] + q[6]) * a.z,
+                             (p[1] + q[1]) * a.x + (p[4] + q[4]) * a.y + (p[7] + q[7]) * a.z,
+                             (p[2] + q[2]) * a.x + (p[5] + q[5]) * a.y + (p[8] + q[8]) * a.z};
+    return soft_add(a, REAL(0.5), sum);
+}
+
+/* One face whose openings are all 0: the force of the bond and how unevenly its sides pull [N], its area vector and the
+ * mean stress in the present frame. */
+typedef struct {
+    soft_vector force, uneven, normal;
+    failure_stress mean;
+} soft_whole;
+LAW soft_whole soft_whole_at(soft_faces f, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
+                             GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient,
+                             GATHER(coeff) stress, GATHER(coeff) flux, GATHER(coeff) bond_part)
+{
+    const soft_cell own = soft_cell_of(f.e, f.area, f.area, flux, bond_part, gradient, stress, k_one, ell_one, beta,
+                                       one_plus_tau),
+                    beside = soft_cell_of(f.j, f.area, f.area, flux, bond_part, gradient, stress, k_one, ell_one, beta,
+                                          one_plus_tau);
+    const lane_vec3 force = soft_bond_force(own.pulls, beside.pulls, soft_modulus(f, modulus, k_one) * one_plus_tau,
+                                            f.ratio, soft_jump(f, displacement)),
+                    uneven = soft_uneven(own.pulls, beside.pulls),
+                    normal = soft_turned(f.area, own.along_area, beside.along_area);
+    return (soft_whole){SOFT_LANE(force, 0), SOFT_LANE(uneven, 0), SOFT_LANE(normal, 0),
+                        soft_first(soft_mean_stress(own, beside))};
+}
+
 /* The bond of one entry of an element, which may have a stress above its limit: 1 where it is marked. */
 LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int shears, coeff slope, OWN(int) neighbour,
                         GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta,
@@ -47,15 +92,13 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
                         OWN(coeff) shear_limit, PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack)
 {
     if (!(limit[entry] < CELLS_NEVER)) return 0;
-    const int j = neighbour[entry], both = n_open[e] && n_open[j];
-    const soft_vector s = soft_area(area, entry);
-    const soft_vector force = soft_bond_force(flux, bond_part, e, j, s, SOFT_BOND_MODULUS(e, j) * one_plus_tau,
-                                              ratio[entry], soft_jump(displacement, e, j));
-    const soft_vector normal = soft_unit(soft_turned(gradient, e, j, s));
+    const int both = n_open[e] && n_open[neighbour[entry]];
+    const soft_vector s = soft_row(area, entry), none = {0, 0, 0};
+    const soft_whole now = soft_whole_at(soft_face_of(e, entry, neighbour, area, ratio), k_one, ell_one, beta,
+                                         one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
+    const soft_vector force = now.force, uneven = both ? now.uneven : none, normal = soft_unit(now.normal);
     const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
-    const failure_stress whole = soft_stress(soft_mean_stress(gradient, stress, e, j), traction, normal);
-    const soft_vector none = {0, 0, 0},
-                      uneven = both ? soft_uneven(flux, gradient, e, j, s, k_one, ell_one, beta, one_plus_tau) : none;
+    const failure_stress whole = soft_stress(now.mean, traction, normal);
     const coeff edge_most = both ? soft_edge(0, uneven, force, normal, s, ratio[entry]) : REAL(0);
     if (!soft_possible(whole, edge_most, share * limit[entry], shears ? share * shear_limit[entry] : REAL(0), slope))
         return 0;
@@ -75,7 +118,7 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
             measure[entry] = slip.stress;
             SOFT_NUMBER(entry, TURNS) = SOFT_SLIDES;
             SOFT_NUMBER(entry, COSINE) = leans;
-            soft_put(crack, entry, SOFT_AXIS, plane);
+            soft_put(crack, (int)entry, SOFT_AXIS, plane);
             return 1;
         }
     }
@@ -85,7 +128,7 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
     SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : size;
-    soft_put(crack, entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
+    soft_put(crack, (int)entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
     return 1;
 }
 
@@ -169,63 +212,84 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
                 breaks += 1;
                 continue;
             }
-            const soft_vector jump = soft_jump(displacement, e, j);
-            const soft_vector force = soft_bond_force(flux, bond_part, e, j, soft_area(area, entry),
-                                                      SOFT_BOND_MODULUS(e, j) * one_plus_tau, ratio[entry], jump);
+            const soft_whole at = soft_whole_at(soft_face_of(e, entry, neighbour, area, ratio), k_one, ell_one, beta,
+                                                one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
+            const soft_vector force = at.force, uneven = at.uneven;
             const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1),
                                                soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
-            const failure_stress mean = soft_mean_stress(gradient, stress, e, j);
-            const soft_vector normal = soft_turned(gradient, e, j, soft_area(area, entry));
-            const soft_vector released =
-                soft_add(force, REAL(-1), slides ? soft_passed(mean, now, normal) : soft_carried(mean, now, normal));
+            const lane_vec3 along = soft_lanes(now), normal = soft_lanes(at.normal);
+            const lane_vec3 goes_on = slides ? soft_passed(soft_spread(at.mean), along, normal)
+                                             : soft_carried(soft_spread(at.mean), along, normal);
+            const soft_vector released = soft_add(force, REAL(-1), SOFT_LANE(goes_on, 0));
             const soft_vector axis = soft_unit(soft_turned_back(gradient, e, j, now));
-            const soft_vector uneven =
-                soft_uneven(flux, gradient, e, j, soft_area(area, entry), k_one, ell_one, beta, one_plus_tau);
             const coeff across = soft_dot(released, now), pulled = across > 0 ? across : 0;
             const coeff size = slides ? soft_slide_start(released, now, friction)
                                       : SQRT(SOFT_NUMBER(from, TURNS) > 0 ? pulled * pulled + soft_dot(uneven, uneven)
                                                                           : soft_dot(released, released));
             const coeff whole = slides ? shear_energy[entry] : SOFT_NUMBER(entry, ENERGY);
             const coeff turns = SOFT_NUMBER(from, TURNS);
-            open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
-            soft_put(crack, entry, SOFT_AXIS, axis), soft_put(crack, other, SOFT_AXIS, soft_scale(REAL(-1), axis));
-            SOFT_NUMBER(entry, START) = size, SOFT_NUMBER(other, START) = size;
-            SOFT_NUMBER(entry, ENERGY) = whole * c, SOFT_NUMBER(other, ENERGY) = whole * c;
-            SOFT_NUMBER(entry, TURNS) = turns, SOFT_NUMBER(other, TURNS) = turns;
-            SOFT_NUMBER(entry, COSINE) = c, SOFT_NUMBER(other, COSINE) = c;
-            SOFT_NUMBER(entry, TILT) = 1, SOFT_NUMBER(other, TILT) = 1;
-            SOFT_NUMBER(entry, ONSET) = onset, SOFT_NUMBER(other, ONSET) = onset;
-            soft_put(crack, entry, SOFT_PULL, force), soft_put(crack, other, SOFT_PULL, soft_scale(REAL(-1), force));
+            const int mine = (int)entry, its = (int)other;
             const soft_vector side = slides ? (soft_vector){0, 0, 0} : uneven;
-            soft_put(crack, entry, SOFT_SIDE_PULL, side), soft_put(crack, other, SOFT_SIDE_PULL, side);
+            open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
+            soft_put(crack, mine, SOFT_AXIS, axis);
+            soft_put_number(crack, mine, SOFT_START, size);
+            soft_put_number(crack, mine, SOFT_ENERGY, whole * c);
+            soft_put_number(crack, mine, SOFT_COSINE, c);
+            soft_put_number(crack, mine, SOFT_TILT, REAL(1));
+            soft_put_numbers(crack, mine, its, SOFT_TURNS, turns);
+            soft_put_numbers(crack, mine, its, SOFT_ONSET, onset);
+            soft_put(crack, mine, SOFT_PULL, force);
+            soft_put(crack, mine, SOFT_SIDE_PULL, side);
         }
         found[e] = (state)breaks;
     }
 }
 
-/* Open faces of every element, and their reach; and the weakest limit of those still whole. */
-KERNEL void soft_count(int n, OWN(int) row_start, OWN(coeff) alive, OWN(int) open, OWN(coeff) limit, OWN(coeff) area,
-                       OWN(coeff) inv_shape, PUT(int) n_open, PUT(coeff) reach, PUT(coeff) least)
+/* Open faces of every element, those that it leads, and their reach; and the weakest limit of those still whole. */
+KERNEL void soft_count(int n, OWN(int) row_start, OWN(coeff) alive, OWN(int) open, OWN(int) lead, OWN(coeff) limit,
+                       OWN(coeff) area, OWN(coeff) inv_shape, PUT(int) n_open, PUT(int) n_lead, PUT(coeff) reach,
+                       PUT(coeff) least)
 {
     FOR_EACH_ITEM(e, n) {
-        int count = 0;
+        GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
+        const coeff xx = p[0], yy = p[C], zz = p[2 * C], yz = p[3 * C], xz = p[4 * C], xy = p[5 * C];
+        int count = 0, leads = 0;
         coeff sum = 0, weakest = CELLS_NEVER;
         for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
             weakest = limit[entry] < weakest ? limit[entry] : weakest;
             if (!open[entry] || !(alive[entry] > 0)) continue;
-            const soft_vector a = soft_pull_of(inv_shape, e, soft_area(area, entry));
+            const soft_vector s = soft_row(area, entry),
+                              a = {xx * s.x + xy * s.y + xz * s.z, xy * s.x + yy * s.y + yz * s.z,
+                                   xz * s.x + yz * s.y + zz * s.z};
             sum += SQRT(soft_dot(a, a));
             count += 1;
+            leads += lead[entry] != 0;
         }
         n_open[e] = count;
+        n_lead[e] = leads;
         reach[e] = sum;
         least[e] = weakest;
     }
 }
 
-#undef SOFT_BOND_MODULUS
-#undef SOFT_ELL
+/* The list of softening_face.cl. first [n]: faces that the elements before lead. */
+KERNEL void soft_list(int n, OWN(int) row_start, OWN(coeff) alive, OWN(int) open, OWN(int) lead, OWN(int) n_lead,
+                      OWN(int) first, SCATTER(int) face_row, SCATTER(int) face_entry)
+{
+    FOR_EACH_ITEM(e, n) {
+        int to = first[e];
+        for (int slot = row_start[e / C]; n_lead[e] && slot < row_start[e / C + 1]; ++slot) {
+            const brc_size entry = SOFT_ENTRY;
+            if (!open[entry] || !lead[entry] || !(alive[entry] > 0)) continue;
+            face_row[to] = e;
+            face_entry[to] = (int)entry;
+            to += 1;
+        }
+    }
+}
+
+#undef SOFT_LANE
 #undef SOFT_ENTRY
 #undef SOFT_NUMBER
 #undef SOFT_IS_SLIDING

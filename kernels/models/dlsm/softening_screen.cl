@@ -110,14 +110,6 @@ LAW int soft_near(lane_mat3 gradient, lane_sym3 stress, dlsm_pull pull, soft_bou
     return soft_short_of(room);
 }
 
-/* k [beta M s - (1 + tau) H s] / 2 of one cell, whose gradient this is. */
-LAW lane_vec3 soft_own_part(lane_mat3 gradient, lane_vec3 s, coeff half_k, lane ell, coeff beta, coeff one_plus_tau)
-{
-    const lane_vec3 along = lane_mat3_mul_vec(gradient, s), compact = dlsm_compaction_along(gradient, along, s, ell, 1);
-    return (lane_vec3){half_k * (beta * compact.x - one_plus_tau * along.x),
-                       half_k * (beta * compact.y - one_plus_tau * along.y),
-                       half_k * (beta * compact.z - one_plus_tau * along.z)};
-}
 /* Bits of the bonds in a slot whose edge may be above the limit (soft_edge; uneven pulls as soft_uneven has them, of
  * which all counts). gradient, flux: of the own cells and those beside. */
 LAW int soft_near_edge(lane_mat3 gradient, lane_mat3 gradient_beside, lane_mat3 flux, lane_mat3 flux_beside,

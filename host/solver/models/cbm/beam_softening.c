@@ -15,7 +15,8 @@ struct brc_beam_softening {
     brc_pass *force, *energy, *virial, *move, *begin, *keep, *end;
     brc_buffer *crack;              /* [n_slots][WIDTH][C] */
     brc_buffer *open, *lead, *twin; /* [n_slots][C] */
-    brc_buffer *active, *touched;   /* [n_groups], [n_rows] */
+    brc_buffer *active, *raised;    /* [n_groups] */
+    brc_buffer *touched;            /* [n_rows] */
 };
 typedef struct brc_beam_softening beam_softening;
 
@@ -28,6 +29,7 @@ static const brc_field_row rows[] = {
     BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
     BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "cohesion of beams", "-"),
     BRC_FIELD(active, brc_each_group, 1, INT, NULL, "open beams", "-"),
+    BRC_FIELD(raised, brc_each_group, 1, INT, NULL, "open beams", "-"),
     BRC_FIELD(touched, brc_each_row, 1, INT, NULL, "open beams", "-"),
 };
 BRC_FIELD_TABLE(brc_beam_softening_fields, "cohesion of beams", BRC_LIFE_RUN, softens, rows);

@@ -2,6 +2,7 @@
 #include "../../core/sym3.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
+#include "../../utilities/scans.h"
 #include "dlsm_internal.h"
 #include <math.h>
 
@@ -24,34 +25,52 @@ static const double retention = 0.3;
  * notches (docs/notebook/fracture.md, "Notched specimens"). */
 static const double least_cells = 4;
 
-/* Components of `crack` (softening.cl). */
-enum { START = 9, ENERGY = 10, SPENT = 13, COSINE = 16, EXPONENTIAL = 17, TILT = 18, WIDTH = 32 };
+/* Components of `crack` (softening_record.cl). */
+enum { START = 9, ENERGY = 10, EXPONENTIAL = 11, COSINE = 13, TILT = 14, SPENT = 23, WIDTH = 26 };
 enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
-    brc_pass *gradient, *flux, *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *energy, *settle;
+    brc_pass *gradient, *gradient_listed, *flux, *flux_listed;
+    brc_pass *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *list, *energy, *settle;
     brc_buffer *crack, *open, *lead;    /* [n_slots][C][WIDTH], [n_slots][C] */
+    brc_buffer *opening, *edge_opening; /* [n_slots][3][C] */
     brc_buffer *n_open, *reach, *shear; /* [n_rows] */
-    brc_buffer *shear_limit;            /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
-    brc_buffer *shear_energy;           /* [n_slots][C] and G_II S [J] */
-    double shear_least;                 /* no face slides where the norm of the stress is below [Pa] */
-    brc_buffer *rubbed;                 /* [n_rows] energy lost to friction between the sides of broken faces [J] */
-    brc_ring_list around;               /* cells with open faces, for the sweeps */
-    bool any;                           /* some face has opened */
-    bool is_listed; /* around is of the faces that are open now, and, with contact, of the pairs there are */
-    int64_t lists;  /* brc_contact_lists of these */
+    brc_buffer *n_lead, *first, *sums;  /* [n_rows], [n_rows + 1], [blocks + 1] open faces of the leading sides */
+    brc_buffer *face_row, *face_entry;  /* [n_faces] these faces; room for all there are */
+    int32_t n_faces;
+    brc_scan_kernels scan;
+    brc_buffer *shear_limit;  /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
+    brc_buffer *shear_energy; /* [n_slots][C] and G_II S [J] */
+    double shear_least;       /* no face slides where the norm of the stress is below [Pa] */
+    brc_buffer *rubbed;       /* [n_rows] energy lost to friction between the sides of broken faces [J] */
+    brc_ring_list around;     /* cells with open faces, for the sweeps */
+    bool any;                 /* some face has opened */
+    bool is_counted;          /* n_open, n_lead and what goes with them */
+    bool has_faces;           /* face_row, face_entry are of the faces that are open now */
+    bool is_listed;           /* around is of the faces that are open now, and, with contact, of the pairs there are */
+    int64_t lists;            /* brc_contact_lists of these */
 };
 typedef struct brc_softening_faces softening_faces;
 
 BRC_WANTED(softens, w->scene->has_fracture &&brc_wants_cells(w) && w->softens)
 BRC_WANTED(slides, brc_scene_slides(w->scene, w->scene->model.kind))
 
+BRC_COUNTED(each_face, w->layout->n_slots * w->layout->slice / 2 + 1)
+BRC_COUNTED(each_block_of_rows, brc_scan_blocks(w->layout->n_rows) + 1)
+
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {
     BRC_KEPT_FIELD(crack, brc_each_record, WIDTH, COEFF, NULL, "cohesion of faces", "-", "softening.crack"),
+    BRC_KEPT_FIELD(opening, brc_each_entry, 3, COEFF, NULL, "cohesion of faces", "m", "softening.opening"),
+    BRC_KEPT_FIELD(edge_opening, brc_each_entry, 3, COEFF, NULL, "cohesion of faces", "m", "softening.edge"),
     BRC_KEPT_FIELD(open, brc_each_entry, 1, INT, NULL, "open faces", "-", "softening.open"),
     BRC_FIELD(lead, brc_each_entry, 1, INT, NULL, "cohesion of faces", "-"),
     BRC_KEPT_FIELD(n_open, brc_each_row, 1, INT, NULL, "open faces", "-", "softening.n_open"),
+    BRC_FIELD(n_lead, brc_each_row, 1, INT, NULL, "list of open faces", "-"),
+    BRC_FIELD(first, brc_each_row_end, 1, INT, NULL, "list of open faces", "-"),
+    BRC_FIELD(sums, each_block_of_rows, 1, INT, NULL, "list of open faces", "-"),
+    BRC_FIELD(face_row, each_face, 1, INT, NULL, "list of open faces", "-"),
+    BRC_FIELD(face_entry, each_face, 1, INT, NULL, "list of open faces", "-"),
     BRC_KEPT_FIELD(reach, brc_each_row, 1, COEFF, NULL, "reach of open faces", "-", "softening.reach"),
     BRC_FIELD(shear_limit, brc_each_entry, 1, COEFF, slides, "limits of shear", "Pa"),
     BRC_FIELD(shear_energy, brc_each_entry, 1, COEFF, slides, "fracture energies in shear", "J"),
@@ -76,16 +95,19 @@ static brc_status make_passes(brc_simulation *s, softening_faces *f)
                              .tables = {&brc_softening_fields},
                              .outer = brc_cell_scopes_make(s, &run, &scopes)};
     const brc_pass_wanted wanted[] = {
-        BRC_PASS(&f->gradient, "soft_gradient", "listed list"),
-        BRC_PASS(&f->flux, "soft_flux", "listed list"),
+        BRC_PASS(&f->gradient, "soft_gradient", NULL),
+        BRC_PASS(&f->gradient_listed, "soft_gradient_listed", BRC_LISTED),
+        BRC_PASS(&f->flux, "soft_flux", NULL),
+        BRC_PASS(&f->flux_listed, "soft_flux_listed", BRC_LISTED),
         BRC_PASS(&f->take_force, "soft_take_force", "force"),
-        BRC_PASS(&f->coast, "soft_coast", NULL),
-        BRC_PASS(&f->move, "soft_move", "is_last stiffen steepest friction retention release"),
-        BRC_PASS(&f->measure, "soft_measure", "book release"),
+        BRC_PASS(&f->coast, "soft_coast", "n_faces"),
+        BRC_PASS(&f->move, "soft_move", "n_faces is_last stiffen steepest friction retention release"),
+        BRC_PASS(&f->measure, "soft_measure", "n_faces book release"),
         BRC_PASS(&f->book, "soft_book", "step"),
         BRC_PASS(&f->check, "soft_check", "share steepest screen shears slope shear_least"),
         BRC_PASS(&f->begin, "soft_begin", "friction"),
         BRC_PASS(&f->count, "soft_count", NULL),
+        BRC_PASS(&f->list, "soft_list", NULL),
         BRC_PASS(&f->energy, "soft_energy", NULL),
         BRC_PASS(&f->settle, "soft_settle", "step list")};
     return BRC_PASSES_MAKE(s, &faces, wanted);
@@ -170,6 +192,7 @@ brc_status brc_softening_create(brc_simulation *s, const brc_strengths *strength
     if (!strengths->softens) return BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &brc_dlsm_own_of(s)->softening, 1, "cohesion of faces"));
     BRC_TRY(make_passes(s, brc_dlsm_own_of(s)->softening));
+    BRC_TRY(brc_scan_kernels_find(s->device, &brc_dlsm_own_of(s)->softening->scan));
     BRC_TRY(warn_of_size(s, strengths));
     BRC_TRY(brc_fields_create(s->device, &brc_softening_fields, &s->wants, brc_dlsm_own_of(s)->softening));
     BRC_TRY(brc_fields_create(s->device, &brc_open_list_fields, &s->wants, &brc_dlsm_own_of(s)->softening->around));
@@ -189,39 +212,63 @@ void brc_softening_free(brc_simulation *s)
 
 /* ---- an evaluation ---- */
 
+/* Cells with open faces, which are ring 0 of a list that is there, where the pass before went over all or that list. */
+static brc_status over_open(brc_simulation *s, const brc_pass *whole, const brc_pass *listed, const brc_ring_list *list,
+                            int ring)
+{
+    const softening_faces *f = faces_of(s);
+    const bool is_there = f->is_listed && f->lists == brc_contact_lists(s);
+    if (is_there && (list == &f->around || brc_pass_is_whole(s, list, ring))) list = &f->around, ring = 0;
+    return brc_pass_over(s, whole, listed, list, ring, NULL, NULL);
+}
+
 brc_status brc_softening_gradient(brc_simulation *s, const brc_ring_list *list, int ring)
 {
-    softening_faces *f = faces_of(s);
-    const bool whole = brc_pass_is_whole(s, list, ring);
-    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
-    if (!f || !f->any) return BRC_OK;
-    return BRC_RUN(f->gradient, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])});
+    const softening_faces *f = faces_of(s);
+    return f && f->any ? over_open(s, f->gradient, f->gradient_listed, list, ring) : BRC_OK;
 }
 
 brc_status brc_softening_flux(brc_simulation *s, const brc_ring_list *list, int ring)
 {
-    softening_faces *f = faces_of(s);
-    const bool whole = brc_pass_is_whole(s, list, ring);
-    const int32_t n = whole ? s->layout->n_rows : list->n[ring];
-    if (!f || !f->any) return BRC_OK;
-    return BRC_RUN(f->flux, n, {"listed", BRC_INT(!whole)}, {"list", BRC_BUF(whole ? NULL : list->upto[ring])});
+    const softening_faces *f = faces_of(s);
+    return f && f->any ? over_open(s, f->flux, f->flux_listed, list, ring) : BRC_OK;
 }
 
 brc_status brc_softening_force(brc_simulation *s, brc_buffer *force)
 {
     softening_faces *f = faces_of(s);
     if (!f || !f->any) return BRC_OK;
-    return BRC_RUN(f->take_force, s->layout->n_rows, {"force", BRC_BUF(force)});
+    return BRC_RUN(f->take_force, s->n_groups, {"force", BRC_BUF(force)});
 }
 
 brc_status brc_softening_energy(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f || !f->any) return BRC_OK;
-    return brc_pass_run(f->energy, s->layout->n_rows);
+    return brc_pass_run(f->energy, s->n_groups);
 }
 
 /* ---- a step ---- */
+
+/* The open faces as they are now. */
+static brc_status list_faces(brc_simulation *s)
+{
+    softening_faces *f = faces_of(s);
+    const int32_t n = s->layout->n_rows;
+    int64_t total = 0;
+    if (f->has_faces) return BRC_OK;
+    if (!f->is_counted) BRC_TRY(brc_pass_run(f->count, n));
+    BRC_TRY(brc_scan(&f->scan, f->n_lead, n, f->sums, f->first, &total));
+    BRC_TRY(brc_pass_run(f->list, n));
+    f->n_faces = (int32_t)total;
+    f->is_counted = f->has_faces = true;
+    return BRC_OK;
+}
+/* Work-items of a pass over the open faces. */
+static int32_t face_items(const brc_simulation *s)
+{
+    return brc_blocks(faces_of(s)->n_faces, brc_device_lanes(s->device));
+}
 
 static double release_of(const brc_simulation *s)
 {
@@ -237,9 +284,10 @@ static double friction_of(const brc_simulation *s)
 static brc_status sweep(brc_simulation *s, int k)
 {
     softening_faces *f = faces_of(s);
-    return BRC_RUN(f->move, s->layout->n_rows, {"is_last", BRC_INT(k == N_SWEEPS - 1)}, {"stiffen", BRC_COEFF(stiffen)},
-                   {"steepest", BRC_COEFF(steepest)}, {"friction", BRC_COEFF(friction_of(s))},
-                   {"retention", BRC_COEFF(retention)}, {"release", BRC_COEFF(release_of(s))});
+    return BRC_RUN(f->move, face_items(s), {"n_faces", BRC_INT(f->n_faces)}, {"is_last", BRC_INT(k == N_SWEEPS - 1)},
+                   {"stiffen", BRC_COEFF(stiffen)}, {"steepest", BRC_COEFF(steepest)},
+                   {"friction", BRC_COEFF(friction_of(s))}, {"retention", BRC_COEFF(retention)},
+                   {"release", BRC_COEFF(release_of(s))});
 }
 
 /* Cells with open faces, whose fluxes are wanted, and around them those whose stresses, and those whose gradients go
@@ -264,7 +312,8 @@ brc_status brc_softening_move(brc_simulation *s)
     if (!f || !f->any) return BRC_OK;
     const bool whole = brc_contact_is_due(s);
     if (!whole) BRC_TRY(list_around(s));
-    BRC_TRY(brc_pass_run(f->coast, s->layout->n_rows));
+    BRC_TRY(list_faces(s));
+    BRC_TRY(BRC_RUN(f->coast, face_items(s), {"n_faces", BRC_INT(f->n_faces)}));
     for (int k = 0; k < N_SWEEPS; ++k) { /* between sweeps only the openings change */
         BRC_TRY(s->model->fluxes_of_state(s, whole ? NULL : &f->around, k == 0));
         BRC_TRY(sweep(s, k));
@@ -275,14 +324,17 @@ brc_status brc_softening_move(brc_simulation *s)
 static brc_status measure(brc_simulation *s, int book)
 {
     softening_faces *f = faces_of(s);
-    return BRC_RUN(f->measure, s->layout->n_rows, {"book", BRC_INT(book)}, {"release", BRC_COEFF(release_of(s))});
+    BRC_TRY(list_faces(s));
+    return BRC_RUN(f->measure, face_items(s), {"n_faces", BRC_INT(f->n_faces)}, {"book", BRC_INT(book)},
+                   {"release", BRC_COEFF(release_of(s))});
 }
 
 brc_status brc_softening_recount(brc_simulation *s)
 {
     softening_faces *f = faces_of(s);
     if (!f) return BRC_OK;
-    f->is_listed = false;
+    f->is_listed = f->has_faces = false;
+    f->is_counted = true;
     return brc_pass_run(f->count, s->layout->n_rows);
 }
 
@@ -300,8 +352,8 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
     *n_ended = 0;
     if (f->any) { /* what opened before this step */
         BRC_TRY(measure(s, 1));
-        BRC_TRY(brc_vector_sum(s, found, n, n_ended));
         BRC_TRY(BRC_RUN(f->book, n, {"step", BRC_INT((int32_t)brc_fracture_moment(s))}));
+        BRC_TRY(brc_vector_sum(s, found, n, n_ended));
     }
     BRC_TRY(BRC_RUN(f->check, s->n_groups, {"share", BRC_COEFF(share)}, {"steepest", BRC_COEFF(steepest)},
                     {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
@@ -348,7 +400,7 @@ brc_status brc_softening_store_state(brc_simulation *s, brc_state_store *store)
 {
     softening_faces *f = faces_of(s);
     if (!f) return BRC_OK;
-    f->is_listed = false;
+    f->is_listed = f->is_counted = f->has_faces = false;
     const brc_state_entry changed[] = {
         {"softening.limit", brc_cell_breaks_array(s, "limit"), BRC_ENTRIES, BRC_OF_COEFF, 1, NULL},
         {"softening.least", brc_cell_breaks_array(s, "least"), BRC_ROWS, BRC_OF_COEFF, 1, NULL},
