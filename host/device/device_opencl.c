@@ -289,6 +289,19 @@ static size_t group_for(size_t group, size_t items, int units)
     return group;
 }
 
+/* Where and in what groups a launch runs. */
+typedef struct {
+    size_t offset, global, group;
+} extent;
+static extent extent_of(const brc_kernel *kernel, size_t first, size_t items)
+{
+    const brc_device *const device = kernel->device;
+    if (kernel->signature.crews && device->lanes == 1)
+        return (extent){first * BRC_GPU_CREW, items * BRC_GPU_CREW, BRC_GPU_CREW};
+    const size_t group = group_for(((const opencl_kernel *)kernel->inside)->group, items, device->info.compute_units);
+    return (extent){first, (items + group - 1) / group * group, group};
+}
+
 static brc_status opencl_launch(brc_kernel *kernel, int64_t first, int64_t n_items, int n_args, const brc_arg *args)
 {
     brc_device *const device = kernel->device;
@@ -311,10 +324,8 @@ static brc_status opencl_launch(brc_kernel *kernel, int64_t first, int64_t n_ite
         own->last[a] = packed;
         own->set[a] = true;
     }
-    const size_t items = (size_t)(n_items - first), offset = (size_t)first,
-                 group = group_for(own->group, items, device->info.compute_units),
-                 global = (items + group - 1) / group * group;
-    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, &offset, &global, &group, 0, NULL,
+    const extent e = extent_of(kernel, (size_t)first, (size_t)(n_items - first));
+    const cl_int code = clEnqueueNDRangeKernel(inside->queue, own->kernel, 1, &e.offset, &e.global, &e.group, 0, NULL,
                                                brc_opencl_profile_event(inside->profile));
     BRC_TRY(brc_opencl_check(device, code, kernel->name));
     brc_opencl_profile_add(inside->profile, kernel->name, n_items);

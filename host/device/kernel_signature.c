@@ -101,7 +101,8 @@ static brc_array_of items_of(const brc_kernel_signature *k, bool pass, bool list
     } words[] = {{"n_groups", BRC_OF_GROUPS},
                  {"n_rows", BRC_OF_ROWS},
                  {"n_numbers", BRC_OF_NUMBERS},
-                 {"n_blocks", BRC_OF_BLOCKS}};
+                 {"n_blocks", BRC_OF_BLOCKS},
+                 {"n_crews", BRC_OF_BLOCKS}};
     for (size_t w = 0; w < sizeof words / sizeof *words; ++w)
         if (begins(k->name[0], words[w].word)) return words[w].items;
     return BRC_OF_NOTHING;
@@ -145,6 +146,7 @@ void brc_kernel_signature_read(const char *name, brc_kernel_signature *out)
                 return;
             }
             out->list = list_in(out);
+            out->crews = begins(out->name[0], "n_crews") || begins(out->name[0], "n_crew_parts");
             out->items = items_of(out, strncmp(word, "PASS(", 5) == 0, listed);
         }
 }

@@ -23,6 +23,7 @@ typedef struct brc_kernel_signature {
     int n;              /* parameters; 0: the text is not of the form of portable.md */
     brc_array_of items; /* what its items are: all groups, rows, numbers or blocks of them; else BRC_OF_NOTHING */
     int list;           /* which parameter is OWN(int) list, of rows; 0: none */
+    bool crews;         /* its items are blocks that a GPU gives to a crew each (portable.h): n_crews, n_crew_parts */
     char kinds[BRC_KERNEL_MOST_ARGS + 1];   /* a letter each */
     brc_use use[BRC_KERNEL_MOST_ARGS];      /* by their markers */
     const char *name[BRC_KERNEL_MOST_ARGS]; /* in the text: ends where a word does */

@@ -306,6 +306,64 @@ typedef int aside;
 #define ASIDE(name, n) const aside name = 0
 #endif
 
+/* Blocks of SCAN_BLOCK numbers: one work-item would wait for each number in turn, so on a GPU a group, the crew, does
+ * each (FOR_EACH_CREW, over the items of a kernel whose first parameter is n_crews): CREW work-items, of which each has
+ * a part of the block (CREW_BEGIN, CREW_END) or, where the order of a sum counts, stages numbers in local memory for
+ * the first (CREW_STAGE, CREW_STAGED). CREW_FIRST: whether this is the one that writes what there is one of a block. */
+#define SCAN_BLOCK 1024
+#if defined(__OPENCL_VERSION__) && W == 1
+#define CREW 32
+typedef __local int *crew_room;
+#define CREW_ROOM(name)                                                                                                \
+    __local int name##_of_crew[CREW];                                                                                  \
+    const crew_room name = name##_of_crew
+#define FOR_EACH_CREW(b, n)                                                                                            \
+    const int b = (int)get_global_id(0) / CREW;                                                                        \
+    if (b < (n))
+#define CREW_PLACE ((int)get_local_id(0))
+#define CREW_STAGE(type, name) __local type name[SCAN_BLOCK]
+#define CREW_STAGED(name, begin, end, i, value)                                                                        \
+    for (int i = (begin) + CREW_PLACE; i < (end); i += CREW) name[i - (begin)] = (value);                              \
+    barrier(CLK_LOCAL_MEM_FENCE)
+#define CREW_NUMBER(name, at, value) name[at]
+#else
+#define CREW 1
+typedef int crew_room;
+#define CREW_ROOM(name) const crew_room name = 0
+#define FOR_EACH_CREW(b, n) FOR_EACH_ITEM(b, n)
+#define CREW_PLACE 0
+#define CREW_STAGE(type, name)
+#define CREW_STAGED(name, begin, end, i, value)
+#define CREW_NUMBER(name, at, value) (value)
+#endif
+#define CREW_FIRST (CREW_PLACE == 0)
+#define CREW_BEGIN(begin, end)                                                                                         \
+    ((begin) + CREW_PLACE * (SCAN_BLOCK / CREW) < (end) ? (begin) + CREW_PLACE * (SCAN_BLOCK / CREW) : (end))
+#define CREW_END(begin, end)                                                                                           \
+    ((begin) + (CREW_PLACE + 1) * (SCAN_BLOCK / CREW) < (end) ? (begin) + (CREW_PLACE + 1) * (SCAN_BLOCK / CREW)       \
+                                                              : (end))
+/* The sum of x over those of a crew before this one, and over all. */
+typedef struct {
+    int before, all;
+} crew_sums;
+LAW crew_sums crew_sum(crew_room room, int x)
+{
+    crew_sums sum = {0, x};
+#if CREW > 1
+    room[CREW_PLACE] = x;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    sum.all = 0;
+    for (int t = 0; t < CREW; ++t) {
+        if (t == CREW_PLACE) sum.before = sum.all;
+        sum.all += room[t];
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+#else
+    (void)room;
+#endif
+    return sum;
+}
+
 /* Numbers of rows of three, one after the other: work-items of a group that lie side by side do numbers that do, which
  * a GPU reads and writes at once. */
 #if defined(__OPENCL_VERSION__) && W == 1

@@ -62,15 +62,18 @@ LAW int rings_reach(lane_int touched, lane_int level)
 
 /* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum.
  * n and SCAN_BLOCK are multiples of W. */
-KERNEL void ring_count(int n_parts, int n, int which, OWN(int) touched, OWN(int) level, PUT(int) count)
+KERNEL void ring_count(int n_crew_parts, int n, int which, OWN(int) touched, OWN(int) level, PUT(int) count)
 {
-    FOR_EACH_ITEM(b, n_parts) {
-        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
+    CREW_ROOM(room);
+    FOR_EACH_CREW(b, n_crew_parts) {
+        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n,
+                  from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
 #define NONE(l) 0
         const lane_int none = LANE_MAKE(lane_int, NONE);
 #undef NONE
         lane_int upto[RING_KINDS] = {none, none, none, none};
-        for (int first = begin; first < end; first += W) {
+        LOADS_TOGETHER(8)
+        for (int first = from; first < to; first += W) {
             const lane_int t = int_load(touched, (brc_size)first), l = int_load(level, (brc_size)first);
             if (!rings_reach(t, l)) continue;
             for (int k = 0; k < RING_KINDS; ++k) upto[k] -= ring_is_upto(which, k, t, l);
@@ -80,7 +83,8 @@ KERNEL void ring_count(int n_parts, int n, int which, OWN(int) touched, OWN(int)
 #define ADD(l) sum += LANE_ITEM(upto[k], l);
             LANE_EACH(ADD)
 #undef ADD
-            count[k * (n_parts + 1) + b] = sum;
+            sum = crew_sum(room, sum).all;
+            if (CREW_FIRST) count[k * (n_crew_parts + 1) + b] = sum;
         }
     }
 }
@@ -101,14 +105,25 @@ KERNEL void ring_tops(int n_lists, int n_blocks, UPDATE(int) count)
 
 /* What each list and those before it hold, in the order of the rows: neighbours in the body, whose numbers share places
  * in memory, are done together whatever their ring. next: running sums of count. */
-KERNEL void ring_list(int n_blocks, int n, int which, UPDATE(int) touched, UPDATE(int) level, OWN(int) next,
+KERNEL void ring_list(int n_crews, int n, int which, UPDATE(int) touched, UPDATE(int) level, OWN(int) next,
                       SCATTER(int) upto_0, SCATTER(int) upto_1, SCATTER(int) upto_2, SCATTER(int) upto_3)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    CREW_ROOM(room);
+    FOR_EACH_CREW(b, n_crews) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
-        const int row = n_blocks + 1;
+        const int row = n_crews + 1, from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
         int to_0 = next[b], to_1 = next[row + b], to_2 = next[2 * row + b], to_3 = next[3 * row + b];
-        for (int first = begin; first < end; first += W) {
+#if CREW > 1
+        int own[RING_KINDS] = {0, 0, 0, 0};
+        LOADS_TOGETHER(8)
+        for (int e = from; e < to; ++e)
+            for (int k = 0; k < RING_KINDS; ++k) own[k] -= ring_is_upto(which, k, touched[e], level[e]);
+        to_0 += crew_sum(room, own[0]).before, to_1 += crew_sum(room, own[1]).before;
+        to_2 += crew_sum(room, own[2]).before, to_3 += crew_sum(room, own[3]).before;
+#else
+        (void)room;
+#endif
+        for (int first = from; first < to; first += W) {
             const brc_size at = (brc_size)first;
             const lane_int own = lane_own(first), t = int_load(touched, at), l = int_load(level, at);
             if (!rings_reach(t, l)) continue;

@@ -1,18 +1,20 @@
 /* Running sums and a stable sort of integers, in fixed blocks of 1024 in order, so that neither device nor threads
  * change a bit. */
 
-#define SCAN_BLOCK 1024
 #define SORT_BINS 256
 
 /* sum[b] = sum of x over block b. */
-KERNEL void scan_sums(int n_blocks, int n, OWN(int) x, PUT(int) sum)
+KERNEL void scan_sums(int n_crews, int n, OWN(int) x, PUT(int) sum)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    CREW_ROOM(room);
+    FOR_EACH_CREW(b, n_crews) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
+        const int from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
         int total = 0;
         LOADS_TOGETHER(16)
-        for (int i = begin; i < end; ++i) total += x[i];
-        sum[b] = total;
+        for (int i = from; i < to; ++i) total += x[i];
+        total = crew_sum(room, total).all;
+        if (CREW_FIRST) sum[b] = total;
     }
 }
 
@@ -32,17 +34,21 @@ KERNEL void scan_tops(int n_items, int n_blocks, SCATTER(int) sum)
 }
 
 /* start[i] = sum of x before i; start[n] that of all. */
-KERNEL void scan_fill(int n_blocks, int n, OWN(int) x, OWN(int) sum, SCATTER(int) start)
+KERNEL void scan_fill(int n_crews, int n, OWN(int) x, OWN(int) sum, SCATTER(int) start)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
-        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
-        int before = sum[b];
+    CREW_ROOM(room);
+    FOR_EACH_CREW(b, n_crews) {
+        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n,
+                  from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
+        int own = 0;
+        for (int i = from; CREW > 1 && i < to; ++i) own += x[i];
+        int before = sum[b] + crew_sum(room, own).before;
         LOADS_TOGETHER(16)
-        for (int i = begin; i < end; ++i) {
+        for (int i = from; i < to; ++i) {
             start[i] = before;
             before += x[i];
         }
-        if (end == n) start[n] = before;
+        if (from < to && to == n) start[n] = before;
     }
 }
 

@@ -25,26 +25,28 @@ KERNEL void vector_xpay(int n_numbers, state a, OWN(state) x, UPDATE(state) y)
 }
 
 /* partial[b] = sum of x y over block b of n numbers in all. */
-KERNEL void vector_dot(int n_blocks, int n, OWN(state) x, OWN(state) y, PUT(state) partial)
+KERNEL void vector_dot(int n_crews, int n, OWN(state) x, OWN(state) y, PUT(state) partial)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
-        const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
+    CREW_STAGE(state, product);
+    FOR_EACH_CREW(b, n_crews) {
+        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         state sum = 0;
-        LOADS_TOGETHER(16)
-        for (int i = begin; i < end; ++i) sum += x[i] * y[i];
-        partial[b] = sum;
+        CREW_STAGED(product, begin, end, k, x[k] * y[k]);
+        for (int i = begin; CREW_FIRST && i < end; ++i) sum += CREW_NUMBER(product, i - begin, x[i] * y[i]);
+        if (CREW_FIRST) partial[b] = sum;
     }
 }
 
 /* partial[b] = sum of x over block b. */
-KERNEL void vector_sum(int n_blocks, int n, OWN(state) x, PUT(state) partial)
+KERNEL void vector_sum(int n_crews, int n, OWN(state) x, PUT(state) partial)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
-        const int begin = b * 1024, end = begin + 1024 < n ? begin + 1024 : n;
+    CREW_STAGE(state, number);
+    FOR_EACH_CREW(b, n_crews) {
+        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         state sum = 0;
-        LOADS_TOGETHER(16)
-        for (int i = begin; i < end; ++i) sum += x[i];
-        partial[b] = sum;
+        CREW_STAGED(number, begin, end, k, x[k]);
+        for (int i = begin; CREW_FIRST && i < end; ++i) sum += CREW_NUMBER(number, i - begin, x[i]);
+        if (CREW_FIRST) partial[b] = sum;
     }
 }
 
