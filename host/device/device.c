@@ -343,6 +343,17 @@ brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data
     return buffer->device->backend->write(buffer->device, buffer->memory, offset, data, bytes);
 }
 
+brc_status brc_buffer_write_common(brc_buffer *buffer, const brc_common_memory *memory)
+{
+    const bool large = memory->bytes >= BRC_LARGE_ARRAY && buffer->of == BRC_OF_NOTHING;
+    BRC_TRY(check_range(buffer, 0, memory->bytes, "write"));
+    if (memory->bytes == 0) return BRC_OK;
+    buffer->device->counts.waits += 1;
+    buffer->device->counts.written_bytes += memory->bytes;
+    if (large && brc_buffer_host(buffer) && brc_common_memory_lay(memory, buffer->memory)) return BRC_OK;
+    return buffer->device->backend->write(buffer->device, buffer->memory, 0, memory->data, memory->bytes);
+}
+
 brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes)
 {
     BRC_TRY(check_range(buffer, offset, bytes, "read"));

@@ -7,6 +7,9 @@
 #include "device_internal.h"
 #include "shares.h"
 
+/* Bytes of an array whose pages are worth a call (device_cpu.c). */
+enum { BRC_LARGE_ARRAY = 2 << 20 };
+
 /* Where the rows of an array are right: of all ranks; own ones and those that own bonds reach; own ones. */
 enum { BRC_EVERYWHERE, BRC_NEAR, BRC_MINE };
 
