@@ -301,6 +301,7 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
     for (int64_t r = 0; r < cells->n_runs; ++r)
         cells->farthest_corner = fmax(cells->farthest_corner, sqrt(all.farthest[r]));
     if (all.open) cells->farthest_corner = HUGE_VAL;
+    brc_voronoi_free(&all.voronoi); /* before more cells come */
     if (together) status = brc_ranks_agree(context, status);
     if (together && status == BRC_OK) status = brc_cells_bring(context, cells);
 cleanup:
