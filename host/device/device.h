@@ -111,6 +111,8 @@ brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data
  * common, once a machine, where it belongs to no rows (shares.h). */
 brc_status brc_buffer_write_common(brc_buffer *buffer, const brc_common_memory *memory);
 brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes);
+/* The first bytes to the rank that writes files (../base/file.h) alone; nothing is written to `data` of others. */
+brc_status brc_buffer_read_for_file(brc_buffer *buffer, void *data, int64_t bytes);
 /* Not blocking: dst and src must not overlap. */
 brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes);
 brc_status brc_buffer_fill_zero(brc_buffer *buffer);

@@ -44,6 +44,11 @@ static bool is_in_parts(const brc_buffer *buffer)
     return h && buffer->device->info.kind == BRC_DEVICE_CPU && is_of_rows(buffer) && bytes_of(buffer) <= buffer->bytes;
 }
 
+const uint8_t *brc_buffer_slices_here(const brc_buffer *buffer)
+{
+    return is_in_parts(buffer) ? buffer->device->shares->slice_here : NULL;
+}
+
 void brc_device_bytes_in_parts(const brc_device *device, int64_t *of_rows, int64_t *once)
 {
     *of_rows = *once = 0;
@@ -170,7 +175,7 @@ bool brc_share_zero(brc_buffer *buffer)
     return true;
 }
 
-brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool *done)
+brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool for_file, bool *done)
 {
     const shares *h = buffer->device->shares;
     int64_t *n_of = NULL;
@@ -181,10 +186,12 @@ brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_
     *done = true;
     BRC_TRY(BRC_ALLOCATE(buffer->device->context, &n_of, h->n_ranks, "shares of ranks"));
     for (int32_t rank = 0; rank < h->n_ranks; ++rank)
-        n_of[rank] = brc_share_before(h, buffer->of, h->first_slice[rank + 1]) -
-                     brc_share_before(h, buffer->of, h->first_slice[rank]);
-    const brc_status status = brc_ranks_gather_all(
-        buffer->device->context, (const char *)buffer->memory + own_of(buffer).first, buffer->each, n_of, data);
+        n_of[rank] = (brc_share_before(h, buffer->of, h->first_slice[rank + 1]) -
+                      brc_share_before(h, buffer->of, h->first_slice[rank])) *
+                     (for_file ? buffer->each : 1);
+    const char *const own = (const char *)buffer->memory + own_of(buffer).first;
+    const brc_status status = for_file ? brc_ranks_gather_first(buffer->device->context, own, n_of, data)
+                                       : brc_ranks_gather_all(buffer->device->context, own, buffer->each, n_of, data);
     brc_memory_free(n_of);
     return status;
 }
