@@ -78,6 +78,8 @@ with tempfile.TemporaryDirectory() as temporary:
     write("quiet.yaml", quiet(from_file(text)))
     ranks = run(3, "quiet-3", "quiet.yaml")
     expect(ranks["Pss_Shmem"] < 0.1 * whole, f"3 ranks share {ranks['Pss_Shmem'] / whole:.3f} of it in memory (0.1 asked)")
+    run(3, "machines-3", SCENE, *CELLS, BRECCIA_RANKS_MACHINES="3")
+    same("built", "machines-3")
     os.mkdir("spill")
     spills = {"BRECCIA_SPILL": os.path.abspath("spill")}
     build = start([PLAIN, "build", SCENE, "-o", "again.h5", *CELLS], **spills)
