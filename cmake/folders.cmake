@@ -3,7 +3,7 @@
 # sources yet gives an empty interface target, so that the rest still builds.
 function(brc_folder_sources out folder)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.c ${CMAKE_SOURCE_DIR}/${folder}/*.cc)
-    list(FILTER sources EXCLUDE REGEX "/main\\.c$|/ranks_mpi\\.c$|/device/(instance|target)/")
+    list(FILTER sources EXCLUDE REGEX "/main\\.c$|/ranks_mpi[a-z_]*\\.c$|/device/(instance|target)/")
     set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 

@@ -76,11 +76,30 @@ cleanup:
     return status;
 }
 
-static int open_first(const address *first, int file)
+static int open_first(const address *first, int file, int access)
 {
     char path[64];
     snprintf(path, sizeof path, "/proc/%lld/fd/%d", (long long)first->process, (int)first->file);
-    return first->process == getpid() ? dup(file) : open(path, O_RDONLY | O_CLOEXEC);
+    return first->process == getpid() ? dup(file) : open(path, access | O_CLOEXEC);
+}
+
+/* The file of the machine's first rank, opened by each of its ranks; `file`, of the first, is closed. */
+static brc_status meet(brc_context *context, int file, int access, address *first, int *there)
+{
+    *first = (address){.file = -1};
+    *there = -1;
+    brc_status status = find_first(context, file, first);
+    if (status == BRC_OK) *there = open_first(first, file, access);
+    int64_t lacks = *there < 0;
+    if (status == BRC_OK) status = brc_ranks_reduce(context, BRC_SUM, 1, &lacks); /* nobody closes before all opened */
+    if (file >= 0) close(file);
+    if (status == BRC_OK && lacks)
+        status = BRC_FAIL(context, BRC_INTERNAL, "%lld ranks cannot open the memory of their machine's first",
+                          (long long)lacks);
+    if (status == BRC_OK || *there < 0) return status;
+    close(*there);
+    *there = -1;
+    return status;
 }
 
 /* Pages that are written become the rank's own. at: where, or NULL. */
@@ -94,22 +113,13 @@ static bool map_file(int file, int64_t bytes, void *at, brc_machine_memory *out)
 
 static brc_status map(brc_context *context, int file, void *at, brc_machine_memory *out)
 {
-    address first = {.file = -1};
-    int there = -1;
+    address first;
+    int there;
     *out = (brc_machine_memory){0};
-    brc_status status = find_first(context, file, &first);
-    if (status == BRC_OK) there = open_first(&first, file);
-    int64_t lacks = there < 0;
-    if (status == BRC_OK) status = brc_ranks_reduce(context, BRC_SUM, 1, &lacks); /* nobody closes before all opened */
-    if (file >= 0) close(file);
-    if (status == BRC_OK && lacks)
-        status = BRC_FAIL(context, BRC_INTERNAL, "%lld ranks cannot open the memory of their machine's first",
-                          (long long)lacks);
-    if (status == BRC_OK) {
-        if (!map_file(there, first.bytes, at, out))
-            status = BRC_FAIL(context, BRC_NO_MEMORY, "%lld bytes of the machine's first rank: %s",
-                              (long long)first.bytes, strerror(errno));
-    }
+    brc_status status = meet(context, file, O_RDONLY, &first, &there);
+    if (status == BRC_OK && !map_file(there, first.bytes, at, out))
+        status = BRC_FAIL(context, BRC_NO_MEMORY, "%lld bytes of the machine's first rank: %s", (long long)first.bytes,
+                          strerror(errno));
     if (there >= 0) close(there);
     return brc_ranks_agree(context, status); /* a rank alone without it would go on another way */
 }
@@ -137,4 +147,80 @@ void brc_machine_memory_free(brc_machine_memory *memory)
 {
     if (memory->data) (void)munmap(memory->data, (size_t)memory->bytes);
     *memory = (brc_machine_memory){0};
+}
+
+/* ---- memory that the ranks of a machine write together ---- */
+
+static brc_status have_own(brc_context *context, int64_t bytes, brc_common_memory *out)
+{
+    *out = (brc_common_memory){.bytes = bytes, .file = -1, .parts = 1};
+    return brc_memory_allocate(context, &out->data, bytes, 1, "memory of ranks");
+}
+
+static size_t at_least_one(int64_t bytes)
+{
+    return bytes > 0 ? (size_t)bytes : 1;
+}
+
+/* Room is set aside: what cannot be written later would end the process with a signal. */
+static brc_status make_room(brc_context *context, int64_t bytes, int *file)
+{
+    BRC_TRY(brc_machine_file(context, file));
+    const int error = posix_fallocate(*file, 0, (off_t)at_least_one(bytes));
+    if (error == 0) return BRC_OK;
+    return BRC_FAIL(context, BRC_NO_MEMORY, "%lld bytes in memory for ranks: %s", (long long)bytes, strerror(error));
+}
+
+/* The first's file as memory that all write. */
+static brc_status have_common(brc_context *context, int64_t bytes, int there, brc_common_memory *out)
+{
+    const brc_ranks_place here = brc_ranks_here();
+    void *const data = mmap(NULL, at_least_one(bytes), PROT_READ | PROT_WRITE, MAP_SHARED, there, 0);
+    if (data == MAP_FAILED)
+        return BRC_FAIL(context, BRC_NO_MEMORY, "%lld bytes of the machine's first rank: %s", (long long)bytes,
+                        strerror(errno));
+    *out = (brc_common_memory){data, bytes, there, here.local, here.local_count};
+    return BRC_OK;
+}
+
+brc_status brc_common_memory_begin(brc_context *context, int64_t bytes, brc_common_memory *out)
+{
+    address first;
+    int file = -1, there = -1;
+    *out = (brc_common_memory){.file = -1};
+    if (brc_ranks_count() == 1) return have_own(context, bytes, out);
+    brc_status status = brc_ranks_here().local == 0 ? make_room(context, bytes, &file) : BRC_OK;
+    status = brc_ranks_agree(context, status);
+    if (status == BRC_OK) {
+        status = meet(context, file, O_RDWR, &first, &there);
+        const bool apart = status == BRC_INTERNAL; /* they see no memory of each other, or one of them has failed */
+        if (apart && brc_ranks_agree(context, BRC_OK) == BRC_OK) {
+            brc_context_clear(context);
+            status = have_own(context, bytes, out);
+        }
+        if (status == BRC_OK && !apart) status = have_common(context, bytes, there, out);
+        if (there >= 0 && !out->data) close(there);
+    } else if (file >= 0) {
+        close(file);
+    }
+    status = brc_ranks_agree(context, status);
+    if (status != BRC_OK) brc_common_memory_free(out);
+    return status;
+}
+
+bool brc_common_memory_lay(const brc_common_memory *memory, void *at)
+{
+    brc_machine_memory unused;
+    return memory->file >= 0 && map_file(memory->file, memory->bytes, at, &unused);
+}
+
+void brc_common_memory_free(brc_common_memory *memory)
+{
+    if (memory->data && memory->file >= 0) {
+        (void)munmap(memory->data, at_least_one(memory->bytes));
+        close(memory->file);
+    } else {
+        brc_memory_free(memory->data);
+    }
+    *memory = (brc_common_memory){.file = -1};
 }

@@ -5,6 +5,7 @@
 #define BRC_BASE_MACHINE_MEMORY_H
 
 #include "status.h"
+#include <stdbool.h>
 #include <stdint.h>
 
 typedef struct brc_machine_memory {
@@ -31,5 +32,22 @@ brc_status brc_machine_file_write(brc_context *context, int file, const void *da
 brc_status brc_machine_file_skip(brc_context *context, int file, int64_t bytes);
 /* Put bytes over its first ones. BRC_NO_MEMORY. */
 brc_status brc_machine_file_place(brc_context *context, int file, const void *data, int64_t bytes);
+
+/* Memory that all ranks of a machine see and write, each its part of the work: `part` of `parts`. Where there is one
+ * rank, or ranks cannot see one another's memory, each has memory of its own and does all of it. */
+typedef struct brc_common_memory {
+    void *data; /* [bytes] */
+    int64_t bytes;
+    int file; /* -1: of its own */
+    int32_t part, parts;
+} brc_common_memory;
+
+/* All ranks, with the same bytes, which are 0. What others have written is there after a call of all ranks
+ * (brc_ranks_agree). BRC_NO_MEMORY. */
+brc_status brc_common_memory_begin(brc_context *context, int64_t bytes, brc_common_memory *out);
+/* After all have written: the pages lie at `at` too, as brc_machine_memory_lay. False: they cannot; copy them. */
+bool brc_common_memory_lay(const brc_common_memory *memory, void *at);
+/* What was laid stays. Accepts what is all 0. */
+void brc_common_memory_free(brc_common_memory *memory);
 
 #endif

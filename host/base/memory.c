@@ -14,6 +14,9 @@
 /* Second word of a head: the block is not of the heap. */
 #define ELSEWHERE ((size_t)1)
 #define SPILLED ((size_t)2)
+#define MAPPED ((size_t)3)
+/* From here on a block has pages of its own, which are there once they are written. */
+#define LEAST_MAPPED ((size_t)4 << 20)
 
 /* Statistics of the process, not state that any computation reads. */
 static atomic_int_least64_t held_bytes;
@@ -47,6 +50,20 @@ static size_t rounded_bytes(int64_t n, size_t size)
     return bytes == 0 ? ALIGNMENT : (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
+/* Zeroed memory with a head, `bytes` in all; *kind: of its head. NULL: none, for `reason`, which may stay as it is. */
+static char *take(size_t bytes, size_t *kind, char reason[BRC_SPILL_REASON])
+{
+    *kind = bytes >= BRC_LEAST_SPILL && brc_spill_folder() ? SPILLED : bytes >= LEAST_MAPPED ? MAPPED : 0;
+    if (*kind == SPILLED) return brc_spill_take(bytes, reason);
+    if (*kind == MAPPED) {
+        void *const memory = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        return memory == MAP_FAILED ? NULL : memory;
+    }
+    char *const memory = aligned_alloc(ALIGNMENT, bytes);
+    if (memory) memset(memory, 0, bytes);
+    return memory;
+}
+
 brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size_t size, const char *what)
 {
     *out = NULL;
@@ -55,9 +72,9 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size
         return BRC_FAIL(context, BRC_NO_MEMORY, "%s: %lld items of %zu bytes are more than any machine addresses", what,
                         (long long)n, size);
     char reason[BRC_SPILL_REASON];
-    const bool spills = bytes >= BRC_LEAST_SPILL && brc_spill_folder();
-    char *raw = spills ? brc_spill_take(bytes + ALIGNMENT, reason) : aligned_alloc(ALIGNMENT, bytes + ALIGNMENT);
-    if (!raw && spills)
+    size_t kind;
+    char *const raw = take(bytes + ALIGNMENT, &kind, reason);
+    if (!raw && kind == SPILLED)
         return BRC_FAIL(context, BRC_NO_MEMORY,
                         "%s: no memory for %lld items of %zu bytes (%.3g GB; %.3g GB are held) in %s (BRECCIA_SPILL): "
                         "%s; name a folder on a local disk with more room",
@@ -69,10 +86,9 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size
             "%s: no memory for %lld items of %zu bytes (%.3g GB; %.3g GB are held); use fewer elements or a "
             "machine with more memory",
             what, (long long)n, size, (double)bytes * 1e-9, (double)brc_memory_held() * 1e-9);
-    if (!spills) memset(raw, 0, bytes + ALIGNMENT);
     *out = raw + ALIGNMENT;
     size_of(*out)[0] = bytes;
-    size_of(*out)[1] = spills ? SPILLED : 0;
+    size_of(*out)[1] = kind;
     count((int64_t)bytes);
     return BRC_OK;
 }
@@ -114,6 +130,8 @@ void brc_memory_free(void *block)
     count(-(int64_t)*size);
     if (size[1] == SPILLED)
         brc_spill_give((char *)size, *size + ALIGNMENT);
+    else if (size[1] == MAPPED)
+        (void)munmap(size, *size + ALIGNMENT);
     else
         free(size);
 }

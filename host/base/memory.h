@@ -1,4 +1,5 @@
-/* Host memory: zeroed, 64-byte aligned (one cache line, one AVX-512 register), counted. */
+/* Host memory: zeroed, 64-byte aligned (one cache line, one AVX-512 register), counted. Pages of large blocks that
+ * nobody writes take no memory. */
 #ifndef BRC_BASE_MEMORY_H
 #define BRC_BASE_MEMORY_H
 

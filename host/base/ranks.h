@@ -38,6 +38,11 @@ brc_ranks_place brc_ranks_here(void);
 int32_t brc_ranks_mine(void);
 int32_t brc_ranks_count(void);
 
+/* From the first ranks of machines (local 0), all of them and no others: until brc_ranks_widen "all" are these, with
+ * numbers of their own, each alone on its machine. The rest waits in a call of all, or does something else. */
+void brc_ranks_narrow(void);
+void brc_ranks_widen(void);
+
 /* ---- failures ---- */
 
 /* This rank has failed: the others are told, and return its status and sentence from their next call. Not collective;

@@ -34,6 +34,14 @@ brc_ranks_place brc_ranks_here(void)
     return (brc_ranks_place){.count = 1, .local_count = 1, .node = name, .engine = "one rank"};
 }
 
+void brc_ranks_narrow(void)
+{
+}
+
+void brc_ranks_widen(void)
+{
+}
+
 void brc_ranks_fail(brc_context *context, brc_status status)
 {
     (void)context, (void)status;

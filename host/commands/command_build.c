@@ -139,7 +139,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     BRC_TRY_OR(cleanup, brc_split_create(context, scene, &split));
     BRC_TRY_OR(cleanup, make_folders(context, split, to.isotropy));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain, split->n, "domains of a scene"));
-    BRC_TRY_OR(cleanup, brc_split_domains_build(context, split, (int)n_threads, domain));
+    BRC_TRY_OR(cleanup, brc_split_domains_build(context, split, (int)n_threads, false, domain));
     const double built = brc_clock_s();
     for (int32_t k = 0; k < split->n; ++k)
         BRC_TRY_OR(cleanup, write_domain(context, domain[k], split->n > 1 ? split->part[k].name : NULL, &to));

@@ -113,12 +113,13 @@ cleanup:
     return status;
 }
 
-static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads,
+static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, bool together,
                             brc_domain **out)
 {
     if (scene->bodies[index].domain_file[0]) return read_body(context, scene, index, out);
     brc_scene_request request;
     BRC_TRY(brc_scene_request_make(context, scene, index, n_threads, &request));
+    request.build.together = together;
     const brc_status status = brc_domain_build(context, &request.build, out);
     brc_scene_request_free(&request);
     return status;
@@ -140,7 +141,7 @@ static void free_bodies(bodies *b)
     *b = (bodies){0};
 }
 
-static brc_status make_bodies(brc_context *context, const brc_scene *scene, int n_threads, bodies *out)
+static brc_status make_bodies(brc_context *context, const brc_scene *scene, int n_threads, bool together, bodies *out)
 {
     *out = (bodies){.n = scene->n_bodies};
     BRC_TRY(BRC_ALLOCATE(context, &out->domain, scene->n_bodies, "bodies of a scene"));
@@ -149,7 +150,7 @@ static brc_status make_bodies(brc_context *context, const brc_scene *scene, int 
         out->name[b] = scene->bodies[b].name;
     for (int32_t b = 0; b < scene->n_bodies; ++b) {
         brc_context_set_place(context, scene->bodies[b].place);
-        const brc_status status = make_body(context, scene, b, n_threads, &out->domain[b]);
+        const brc_status status = make_body(context, scene, b, n_threads, together, &out->domain[b]);
         brc_context_set_place(context, NULL);
         BRC_TRY(status);
     }
@@ -165,16 +166,22 @@ static brc_status join_bodies(brc_context *context, bodies *b, brc_domain **out)
     return BRC_OK;
 }
 
-brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out)
+static brc_status build_scene(brc_context *context, const brc_scene *scene, int n_threads, bool together,
+                              brc_domain **out)
 {
     bodies own;
     *out = NULL;
-    brc_status status = make_bodies(context, scene, n_threads, &own);
+    brc_status status = make_bodies(context, scene, n_threads, together, &own);
     if (status == BRC_OK) status = join_bodies(context, &own, out);
     if (status == BRC_OK) status = brc_sets_build(context, scene->n_sets, scene->sets, *out);
     free_bodies(&own);
     if (status != BRC_OK) brc_domain_free(out);
     return status;
+}
+
+brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out)
+{
+    return build_scene(context, scene, n_threads, false, out);
 }
 
 /* Bodies of different parts; those of one part are looked at when they are joined. */
@@ -251,16 +258,17 @@ cleanup:
     return status;
 }
 
-brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
+brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, bool together,
+                                   brc_domain **out)
 {
     bodies *part = NULL;
     brc_status status = BRC_OK;
     for (int32_t k = 0; k < split->n; ++k)
         out[k] = NULL;
-    if (split->n == 1) return brc_scene_domain_build(context, split->scene, n_threads, out);
+    if (split->n == 1) return build_scene(context, split->scene, n_threads, together, out);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, split->n, "parts of a scene"));
     for (int32_t k = 0; k < split->n; ++k)
-        BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, &part[k]));
+        BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, together, &part[k]));
     BRC_TRY_OR(cleanup, check_overlaps(context, split->n, part));
     for (int32_t k = 0; k < split->n; ++k)
         BRC_TRY_OR(cleanup, join_bodies(context, &part[k], &out[k]));

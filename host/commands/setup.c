@@ -10,20 +10,29 @@
 #include <omp.h>
 #include <string.h>
 
-/* On several ranks the first of each machine builds, with the threads of all of them. */
+/* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells. */
+static brc_status build_among_firsts(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
+{
+    brc_ranks_narrow();
+    const brc_status status = brc_split_domains_build(context, split, n_threads, brc_ranks_count() > 1, out);
+    brc_ranks_widen();
+    return status;
+}
+
+/* On several ranks the first of each machine builds. */
 static brc_status build(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
 {
     const brc_ranks_place here = brc_ranks_here();
     const int each = n_threads > 0 ? n_threads : omp_get_max_threads();
     bool shared = here.count > 1;
-    if (!shared) return brc_split_domains_build(context, split, n_threads, out);
-    if (here.local == 0) BRC_TRY(brc_split_domains_build(context, split, each * here.local_count, out));
+    if (!shared) return brc_split_domains_build(context, split, n_threads, false, out);
+    if (here.local == 0) BRC_TRY(build_among_firsts(context, split, each * here.local_count, out));
     for (int32_t k = 0; shared && k < split->n; ++k)
         BRC_TRY(brc_domain_share(context, &out[k], &shared));
     if (shared || here.local == 0) return BRC_OK;
     for (int32_t k = 0; k < split->n; ++k)
         brc_domain_free(&out[k]);
-    return brc_split_domains_build(context, split, n_threads, out);
+    return brc_split_domains_build(context, split, n_threads, false, out);
 }
 
 brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads,

@@ -1,5 +1,6 @@
 /* What all backends share: checks, sentences, counting, and finding each kernel once. */
 #include "device_internal.h"
+#include "../base/file.h"
 #include "shares_internal.h"
 #include "device_list.h"
 #include "../base/memory.h"
@@ -343,17 +344,39 @@ brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data
     return buffer->device->backend->write(buffer->device, buffer->memory, offset, data, bytes);
 }
 
-brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes)
+brc_status brc_buffer_write_common(brc_buffer *buffer, const brc_common_memory *memory)
+{
+    const bool large = memory->bytes >= BRC_LARGE_ARRAY && buffer->of == BRC_OF_NOTHING;
+    BRC_TRY(check_range(buffer, 0, memory->bytes, "write"));
+    if (memory->bytes == 0) return BRC_OK;
+    buffer->device->counts.waits += 1;
+    buffer->device->counts.written_bytes += memory->bytes;
+    if (large && brc_buffer_host(buffer) && brc_common_memory_lay(memory, buffer->memory)) return BRC_OK;
+    return buffer->device->backend->write(buffer->device, buffer->memory, 0, memory->data, memory->bytes);
+}
+
+static brc_status read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool for_file)
 {
     BRC_TRY(check_range(buffer, offset, bytes, "read"));
     if (bytes == 0) return BRC_OK;
     bool done;
     buffer->device->counts.waits += 1;
     buffer->device->counts.read_bytes += bytes;
-    BRC_TRY(brc_share_read(buffer, offset, data, bytes, &done));
+    BRC_TRY(brc_share_read(buffer, offset, data, bytes, for_file, &done));
     if (done) return BRC_OK;
     BRC_TRY(brc_share_gather(buffer));
+    if (for_file && !brc_file_writes()) return BRC_OK;
     return buffer->device->backend->read(buffer->device, buffer->memory, offset, data, bytes);
+}
+
+brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes)
+{
+    return read(buffer, offset, data, bytes, false);
+}
+
+brc_status brc_buffer_read_for_file(brc_buffer *buffer, void *data, int64_t bytes)
+{
+    return read(buffer, 0, data, bytes, true);
 }
 
 brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes)

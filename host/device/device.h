@@ -6,6 +6,7 @@
 #ifndef BRC_DEVICE_DEVICE_H
 #define BRC_DEVICE_DEVICE_H
 
+#include "../base/machine_memory.h"
 #include "../base/status.h"
 #include <stdint.h>
 
@@ -106,7 +107,12 @@ int64_t brc_buffer_bytes(const brc_buffer *buffer);
 void *brc_buffer_host(const brc_buffer *buffer);
 /* Blocking copies, ordered after all launches so far. */
 brc_status brc_buffer_write(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes);
+/* All of an array that was not written yet; what follows is 0. On the cpu it has the pages of memory that ranks have in
+ * common, once a machine, where it belongs to no rows (shares.h). */
+brc_status brc_buffer_write_common(brc_buffer *buffer, const brc_common_memory *memory);
 brc_status brc_buffer_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes);
+/* The first bytes to the rank that writes files (../base/file.h) alone; nothing is written to `data` of others. */
+brc_status brc_buffer_read_for_file(brc_buffer *buffer, void *data, int64_t bytes);
 /* Not blocking: dst and src must not overlap. */
 brc_status brc_buffer_copy(brc_buffer *dst, brc_buffer *src, int64_t bytes);
 brc_status brc_buffer_fill_zero(brc_buffer *buffer);

@@ -35,6 +35,10 @@ typedef enum brc_array_of {
 /* number: bytes of one of the numbers in it. */
 void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes, int64_t number);
 
+/* Slices [n_slices] with rows that this rank gets of what all write to the array at once (brc_buffer_write): 0 where it
+ * may have anything else. NULL: it gets all. */
+const uint8_t *brc_buffer_slices_here(const brc_buffer *buffer);
+
 /* Rows that launches keep to: arrays of rows are read and written at these alone. All ranks, with the same rows: n of
  * them, in any order, some more than once; those below 0 or too large are no rows. *out: NULL or an older set, which is
  * used again. One rank needs none: *out stays NULL. */

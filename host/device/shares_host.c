@@ -11,7 +11,6 @@ typedef struct brc_shares shares;
 
 enum {
     SPARE = 64,
-    LARGE = 2 << 20, /* bytes of an array whose pages are worth a call (device_cpu.c) */
     LAUNCHES_BETWEEN = 512
 }; /* giving back pages of one array: those of some come and go in every step */
 
@@ -45,6 +44,11 @@ static bool is_in_parts(const brc_buffer *buffer)
     return h && buffer->device->info.kind == BRC_DEVICE_CPU && is_of_rows(buffer) && bytes_of(buffer) <= buffer->bytes;
 }
 
+const uint8_t *brc_buffer_slices_here(const brc_buffer *buffer)
+{
+    return is_in_parts(buffer) ? buffer->device->shares->slice_here : NULL;
+}
+
 void brc_device_bytes_in_parts(const brc_device *device, int64_t *of_rows, int64_t *once)
 {
     *of_rows = *once = 0;
@@ -52,7 +56,7 @@ void brc_device_bytes_in_parts(const brc_device *device, int64_t *of_rows, int64
     for (const brc_buffer *buffer = device->buffers; buffer; buffer = buffer->older)
         if (is_of_rows(buffer))
             *of_rows += buffer->bytes;
-        else if (buffer->of == BRC_OF_NOTHING && buffer->bytes >= LARGE)
+        else if (buffer->of == BRC_OF_NOTHING && buffer->bytes >= BRC_LARGE_ARRAY)
             *once += buffer->bytes;
 }
 
@@ -67,11 +71,11 @@ static void advise(const brc_buffer *buffer, int64_t first, int64_t end, int64_t
 
 void brc_share_pages(const brc_buffer *buffer)
 {
-    if (!is_in_parts(buffer) || buffer->bytes < LARGE) return;
+    if (!is_in_parts(buffer) || buffer->bytes < BRC_LARGE_ARRAY) return;
     const range own = own_of(buffer);
     const int64_t page = sysconf(_SC_PAGESIZE);
     advise(buffer, 0, buffer->bytes, page, MADV_NOHUGEPAGE);
-    advise(buffer, own.first, own.end, LARGE, MADV_HUGEPAGE);
+    advise(buffer, own.first, own.end, BRC_LARGE_ARRAY, MADV_HUGEPAGE);
 }
 
 void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes, int64_t number)
@@ -85,7 +89,7 @@ void brc_buffer_is_of(brc_buffer *buffer, brc_array_of what, int64_t bytes, int6
 void brc_share_give_back(brc_buffer *buffer)
 {
     const int64_t now = buffer->device->shares->n_launches;
-    if (!is_in_parts(buffer) || buffer->bytes < LARGE || now - buffer->given_back < LAUNCHES_BETWEEN) return;
+    if (!is_in_parts(buffer) || buffer->bytes < BRC_LARGE_ARRAY || now - buffer->given_back < LAUNCHES_BETWEEN) return;
     const range own = own_of(buffer);
     const int64_t page = sysconf(_SC_PAGESIZE);
     advise(buffer, 0, own.first, page, MADV_DONTNEED);
@@ -159,7 +163,7 @@ bool brc_share_once(brc_buffer *buffer, int64_t offset, const void *data, int64_
         buffer->is_scratch)
         return false;
     /* what follows in the last page becomes 0: no more than the spare numbers of an array (solver/core/fields.c) */
-    if (offset != 0 || bytes < LARGE || buffer->bytes - bytes > SPARE) return false;
+    if (offset != 0 || bytes < BRC_LARGE_ARRAY || buffer->bytes - bytes > SPARE) return false;
     h->ranks_meet = write_once(buffer->device->context, buffer, data, bytes) == BRC_OK;
     return h->ranks_meet;
 }
@@ -171,7 +175,7 @@ bool brc_share_zero(brc_buffer *buffer)
     return true;
 }
 
-brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool *done)
+brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool for_file, bool *done)
 {
     const shares *h = buffer->device->shares;
     int64_t *n_of = NULL;
@@ -182,10 +186,12 @@ brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_
     *done = true;
     BRC_TRY(BRC_ALLOCATE(buffer->device->context, &n_of, h->n_ranks, "shares of ranks"));
     for (int32_t rank = 0; rank < h->n_ranks; ++rank)
-        n_of[rank] = brc_share_before(h, buffer->of, h->first_slice[rank + 1]) -
-                     brc_share_before(h, buffer->of, h->first_slice[rank]);
-    const brc_status status = brc_ranks_gather_all(
-        buffer->device->context, (const char *)buffer->memory + own_of(buffer).first, buffer->each, n_of, data);
+        n_of[rank] = (brc_share_before(h, buffer->of, h->first_slice[rank + 1]) -
+                      brc_share_before(h, buffer->of, h->first_slice[rank])) *
+                     (for_file ? buffer->each : 1);
+    const char *const own = (const char *)buffer->memory + own_of(buffer).first;
+    const brc_status status = for_file ? brc_ranks_gather_first(buffer->device->context, own, n_of, data)
+                                       : brc_ranks_gather_all(buffer->device->context, own, buffer->each, n_of, data);
     brc_memory_free(n_of);
     return status;
 }

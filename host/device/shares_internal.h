@@ -7,6 +7,9 @@
 #include "device_internal.h"
 #include "shares.h"
 
+/* Bytes of an array whose pages are worth a call (device_cpu.c). */
+enum { BRC_LARGE_ARRAY = 2 << 20 };
+
 /* Where the rows of an array are right: of all ranks; own ones and those that own bonds reach; own ones. */
 enum { BRC_EVERYWHERE, BRC_NEAR, BRC_MINE };
 
@@ -46,6 +49,7 @@ struct brc_shares {
     int32_t *slot_start; /* [n_slices + 1] */
     int32_t n_ranks, mine;
     int32_t *first_slice; /* [n_ranks + 1] */
+    uint8_t *slice_here;  /* [n_slices] it has own rows, or some that own bonds reach */
     int32_t n_beside;     /* ranks that rows are exchanged with */
     int32_t *beside;      /* [n_beside] */
     brc_rows_beside give, take;
@@ -101,8 +105,9 @@ bool brc_share_write(brc_buffer *buffer, int64_t offset, const void *data, int64
 /* A large array of no parts, which the ranks of a machine have once. */
 bool brc_share_once(brc_buffer *buffer, int64_t offset, const void *data, int64_t bytes);
 bool brc_share_zero(brc_buffer *buffer);
-/* All ranks: a whole array to the host, which the device need not have; *done: it was. */
-brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool *done);
+/* All ranks: a whole array to the host, which the device need not have, for_file to that of the first rank alone;
+ * *done: it was. */
+brc_status brc_share_read(brc_buffer *buffer, int64_t offset, void *data, int64_t bytes, bool for_file, bool *done);
 
 /* ---- shares.c ---- */
 /* Whether others may launch with items where this rank has none. */

@@ -184,6 +184,16 @@ static void find_inside(shares *h)
     }
 }
 
+static brc_status find_slices_here(brc_context *context, shares *h)
+{
+    BRC_TRY(BRC_ALLOCATE(context, &h->slice_here, h->rows.n_slices, "shares of ranks"));
+    for (int32_t slice = h->first_slice[h->mine]; slice < h->first_slice[h->mine + 1]; ++slice)
+        h->slice_here[slice] = 1;
+    for (int64_t k = 0; k < h->take.start[h->n_beside]; ++k)
+        h->slice_here[h->take.row[k] / h->rows.slice] = 1;
+    return BRC_OK;
+}
+
 brc_status brc_device_share(brc_device *device, const brc_rows_of_device *rows)
 {
     brc_context *context = device->context;
@@ -209,6 +219,7 @@ brc_status brc_device_share(brc_device *device, const brc_rows_of_device *rows)
     h->ranks_meet = most_local > 1;
     BRC_TRY(find_rows(context, h));
     find_inside(h);
+    BRC_TRY(find_slices_here(context, h));
     h->rows.slot_start = h->rows.neighbour = NULL; /* the caller's */
     return BRC_OK;
 }
@@ -232,6 +243,7 @@ void brc_shares_free(brc_device *device)
         brc_memory_free(m->receive);
         brc_memory_free(m);
     }
+    brc_memory_free(h->slice_here);
     brc_memory_free(h->slot_start);
     brc_memory_free(h->first_slice);
     brc_memory_free(h->beside);

@@ -1,9 +1,10 @@
 /* Each thread takes runs of elements, asks the Voronoi worker for one cell after the other and writes down what the
  * domain needs: the mass of the cell, its shared faces, its free faces and its corners. */
-#include "cells.h"
+#include "cells_ranks.h"
 
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
+#include "../../host/base/ranks.h"
 #include "polyhedron.h"
 
 #include <math.h>
@@ -252,8 +253,14 @@ static brc_status report(const shared *all, int64_t n)
                     (long long)all->failed, (long long)n, x[0], x[1], x[2], all->reason);
 }
 
+static int64_t elements_of(brc_run_range range, int64_t n)
+{
+    const int64_t first = range.first * BRC_RUN_LENGTH, end = range.end * BRC_RUN_LENGTH;
+    return (end < n ? end : n) - (first < n ? first : n);
+}
+
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
-                             double spacing, int n_threads, brc_cells *cells)
+                             double spacing, int n_threads, bool together, brc_cells *cells)
 {
     memset(cells, 0, sizeof *cells);
     shared all = {.context = context,
@@ -268,13 +275,15 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &all.farthest, cells->n_runs, "farthest corners"));
     BRC_TRY_OR(cleanup, brc_voronoi_create(context, position, n, walls, spacing, &all.voronoi));
     BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, "Voronoi cells", n, "cells", 0.0, NULL));
+    const brc_run_range here = brc_runs_here(cells->n_runs, together);
+    const int64_t some = elements_of(here, n);
     int64_t done = 0;
 #pragma omp parallel num_threads(n_threads)
     {
         brc_voronoi_worker *worker = brc_voronoi_worker_create(all.voronoi);
         if (!worker) fail(&all, BRC_NO_MEMORY, 0, "no memory for the search; use fewer threads");
 #pragma omp for schedule(dynamic, 1)
-        for (int64_t r = 0; r < cells->n_runs; ++r) {
+        for (int64_t r = here.first; r < here.end; ++r) {
             if (worker) compute_run(&all, cells, worker, r);
 #pragma omp atomic
             done += BRC_RUN_LENGTH;
@@ -282,16 +291,19 @@ brc_status brc_cells_compute(brc_context *context, const double *position, int64
                 int64_t now;
 #pragma omp atomic read
                 now = done;
-                brc_progress_update(progress, now < n ? now : n);
+                brc_progress_update(progress, now < some ? now : some);
             }
         }
         brc_voronoi_worker_free(&worker);
     }
     status = report(&all, n);
-    if (status == BRC_OK) brc_progress_update(progress, n);
+    if (status == BRC_OK) brc_progress_update(progress, some);
     for (int64_t r = 0; r < cells->n_runs; ++r)
         cells->farthest_corner = fmax(cells->farthest_corner, sqrt(all.farthest[r]));
     if (all.open) cells->farthest_corner = HUGE_VAL;
+    brc_voronoi_free(&all.voronoi); /* before more cells come */
+    if (together) status = brc_ranks_agree(context, status);
+    if (together && status == BRC_OK) status = brc_cells_bring(context, cells);
 cleanup:
     brc_progress_finish(&progress);
     brc_voronoi_free(&all.voronoi);
@@ -314,7 +326,7 @@ static void settle(const brc_walls *walls, const double x[3], double spacing, do
 }
 
 brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, const brc_walls *walls, double spacing,
-                           int n_threads, const char *what)
+                           int n_threads, bool together, const char *what)
 {
     shared all = {.context = context, .position = position, .n = n, .walls = walls, .status = BRC_OK};
     double *fresh = NULL;
@@ -323,13 +335,15 @@ brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, co
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, brc_voronoi_create(context, position, n, walls, spacing, &all.voronoi));
     BRC_TRY_OR(cleanup, brc_progress_create(context, &progress, what, n, "cells", 0.0, NULL));
+    const brc_run_range here = brc_runs_here((n + BRC_RUN_LENGTH - 1) / BRC_RUN_LENGTH, together);
+    const int64_t first = here.first * BRC_RUN_LENGTH, some = elements_of(here, n);
     int64_t done = 0;
 #pragma omp parallel num_threads(n_threads)
     {
         brc_voronoi_worker *worker = brc_voronoi_worker_create(all.voronoi);
         if (!worker) fail(&all, BRC_NO_MEMORY, 0, "no memory for the search; use fewer threads");
 #pragma omp for schedule(dynamic, BRC_RUN_LENGTH)
-        for (int64_t e = 0; e < n; ++e) {
+        for (int64_t e = first; e < first + some; ++e) {
             brc_polyhedron cell;
             const brc_status cell_status = worker ? brc_voronoi_cell(worker, e, &cell) : BRC_NO_MEMORY;
             if (cell_status != BRC_OK) {
@@ -347,13 +361,15 @@ brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, co
                 int64_t now;
 #pragma omp atomic read
                 now = done;
-                brc_progress_update(progress, now < n ? now : n);
+                brc_progress_update(progress, now < some ? now : some);
             }
         }
         brc_voronoi_worker_free(&worker);
     }
     status = report(&all, n);
-    if (status == BRC_OK) brc_progress_update(progress, n);
+    if (status == BRC_OK) brc_progress_update(progress, some);
+    if (together) status = brc_ranks_agree(context, status);
+    if (together && status == BRC_OK) status = brc_cells_bring_rows(context, n, 3 * sizeof *fresh, fresh);
     if (status == BRC_OK) memcpy(position, fresh, 3 * (size_t)n * sizeof *fresh);
 cleanup:
     brc_progress_finish(&progress);

@@ -26,11 +26,11 @@ brc_status brc_conform_walls(brc_context *context, const double *position, int64
 }
 
 brc_status brc_conform_cells(brc_context *context, const double *position, int64_t n, double spacing, int n_threads,
-                             brc_walls *walls, brc_cells *cells)
+                             bool together, brc_walls *walls, brc_cells *cells)
 {
     for (int t = 0; t < MOST_TRIES; ++t) {
         BRC_TRY(brc_conform_walls(context, position, n, spacing, true, n_threads, walls));
-        BRC_TRY(brc_cells_compute(context, position, n, walls, spacing, n_threads, cells));
+        BRC_TRY(brc_cells_compute(context, position, n, walls, spacing, n_threads, together, cells));
         if (!walls->mirrored || cells->farthest_corner <= walls->reach) return BRC_OK;
         walls->reach = 1.05 * fmin(cells->farthest_corner, 2.0 * walls->reach);
         brc_cells_free(cells);

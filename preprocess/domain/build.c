@@ -265,7 +265,8 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
         char what[64];
         snprintf(what, sizeof what, "Lloyd sweep %d of %d", sweep + 1, request->fill.lloyd_sweeps);
         BRC_TRY_OR(cleanup, brc_conform_walls(context, w->position, w->n, w->spacing, false, w->n_threads, &w->walls));
-        BRC_TRY_OR(cleanup, brc_cells_relax(context, w->position, w->n, &w->walls, w->spacing, w->n_threads, what));
+        BRC_TRY_OR(cleanup, brc_cells_relax(context, w->position, w->n, &w->walls, w->spacing, w->n_threads,
+                                            request->together, what));
     }
     if (request->fill.kind != BRC_FILL_POINTS) /* those are as given */
         BRC_TRY_OR(cleanup, brc_edges_place(context, &w->walls, w->spacing, request->fill.spread, request->fill.seed,
@@ -274,8 +275,8 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
     domain->position = w->position;
     domain->n_elements = w->n;
     w->position = NULL;
-    BRC_TRY_OR(cleanup,
-               brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, &w->walls, &cells));
+    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, request->together,
+                                          &w->walls, &cells));
     BRC_TRY_OR(cleanup, brc_half_edges_build(context, &cells, threshold, w->n_threads, domain));
     BRC_TRY_OR(cleanup, brc_conform_check(context, &w->walls, w->spacing, w->n_threads, domain));
     status = name_walls(context, w->solid, domain);

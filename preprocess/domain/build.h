@@ -169,7 +169,8 @@ typedef struct brc_build_request {
     const double *points;       /* [n_points][3] borrowed [m] */
     const double *radii;        /* [n_points] borrowed [m]; NULL: points without radii */
     int32_t n_threads;          /* 0: as OpenMP decides. The result does not depend on it, bit for bit. */
-    int32_t body;               /* written into brc_domain.body */
+    bool together; /* all ranks (host/base/ranks.h) build it: each computes some of the cells, all get all of them */
+    int32_t body;  /* written into brc_domain.body */
 } brc_build_request;
 
 /* Build. BRC_BAD_INPUT (spread outside 0..1, an empty set, an unknown wall, fewer than 1 element, less than two cells

@@ -14,12 +14,29 @@
  * squared. */
 #define CELL_TOLERANCE 1e-6
 
-brc_status brc_convex_allocate(brc_context *context, int64_t n, int64_t n_corners, int64_t n_faces, brc_convex *out)
+static brc_status check_range(brc_context *context, const brc_convex *convex, int64_t first, int64_t end,
+                              double tolerance);
+
+brc_status brc_convex_check_size(brc_context *context, int64_t n, int64_t n_corners, int64_t n_faces)
 {
     if (n > INT32_MAX - 1 || n_corners > INT32_MAX - 1 || n_faces > INT32_MAX - 1)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "contact of %lld polyhedra with %lld corners: at most 2^31 - 2 of each; use fewer elements",
                         (long long)n, (long long)n_corners);
+    return BRC_OK;
+}
+
+brc_status brc_convex_check_loops(brc_context *context, int64_t n_loops)
+{
+    if (n_loops > INT32_MAX - 1)
+        return BRC_FAIL(context, BRC_BAD_INPUT,
+                        "contact: polyhedra with more than 2^31 - 2 corners of faces in all; use fewer elements");
+    return BRC_OK;
+}
+
+brc_status brc_convex_allocate(brc_context *context, int64_t n, int64_t n_corners, int64_t n_faces, brc_convex *out)
+{
+    BRC_TRY(brc_convex_check_size(context, n, n_corners, n_faces));
     out->n = (int32_t)n;
     BRC_TRY(BRC_ALLOCATE(context, &out->corner_start, n + 1, "corner rows of polyhedra"));
     BRC_TRY(BRC_ALLOCATE(context, &out->corner, 3 * n_corners, "corners of polyhedra"));
@@ -35,9 +52,7 @@ brc_status brc_convex_allocate_loops(brc_context *context, brc_convex *convex)
     int64_t sum = 0;
     for (int32_t f = 0; f < n_faces; ++f) {
         sum += convex->loop_start[f + 1];
-        if (sum > INT32_MAX - 1)
-            return BRC_FAIL(context, BRC_BAD_INPUT,
-                            "contact: polyhedra with more than 2^31 - 2 corners of faces in all; use fewer elements");
+        BRC_TRY(brc_convex_check_loops(context, sum));
         convex->loop_start[f + 1] = (int32_t)sum;
     }
     return BRC_ALLOCATE(context, &convex->loop, sum, "corners of faces of polyhedra");
@@ -86,11 +101,6 @@ static int64_t trace(const brc_domain *d, int64_t e, int64_t k, tracer *t, doubl
     return n;
 }
 
-static int64_t faces_of(const brc_domain *d, int64_t e)
-{
-    return d->row_start[e + 1] - d->row_start[e] + d->free_start[e + 1] - d->free_start[e];
-}
-
 /* Write the faces of element e, or, while there are no loops yet, only how many corners each has; false: a face has no
  * outline, or more corners than the limit. */
 static bool cell_faces(const brc_domain *d, int64_t e, tracer *t, brc_convex *out)
@@ -107,12 +117,13 @@ static bool cell_faces(const brc_domain *d, int64_t e, tracer *t, brc_convex *ou
     return true;
 }
 
-/* Every cell once; the first that fails, or -1. tracers: one a thread. */
-static int64_t each_cell(const brc_domain *d, int n_threads, tracer *tracers, brc_convex *out)
+/* Each cell of a range once; the first that fails, or -1. tracers: one a thread. */
+static int64_t each_cell(const brc_domain *d, int64_t first, int64_t end, int n_threads, tracer *tracers,
+                         brc_convex *out)
 {
     int64_t bad = INT64_MAX;
 #pragma omp parallel for schedule(static) num_threads(n_threads) reduction(min : bad)
-    for (int64_t e = 0; e < d->n_elements; ++e)
+    for (int64_t e = first; e < end; ++e)
         if (!cell_faces(d, e, tracers + omp_get_thread_num(), out) && e < bad) bad = e;
     return bad == INT64_MAX ? -1 : bad;
 }
@@ -126,22 +137,25 @@ static brc_status refuse_cell(brc_context *context, const brc_domain *d, int64_t
                     (long long)e, x[0], x[1], x[2], (int)BRC_CONVEX_CORNERS);
 }
 
-/* All that needs no outlines; *most: the most corners of a cell. */
-static brc_status lay_out(brc_context *context, const brc_domain *d, brc_convex *out, int64_t *most)
+int64_t brc_convex_face_start(const brc_domain *d, int64_t e)
 {
-    BRC_TRY(brc_convex_allocate(context, d->n_elements, d->vertex_start[d->n_elements],
-                                d->n_half_edges + d->n_free_faces, out));
-    *most = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        const int64_t corners = d->vertex_start[e + 1] - d->vertex_start[e], faces = faces_of(d, e);
-        *most = corners > *most ? corners : *most;
+    return d->row_start[e] + d->free_start[e];
+}
+
+/* All that needs no outlines. */
+static brc_status lay_out(brc_context *context, const brc_domain *d, int64_t first, int64_t end, brc_convex *out)
+{
+    for (int64_t e = first; e < end; ++e) {
+        const int64_t faces = brc_convex_face_start(d, e + 1) - brc_convex_face_start(d, e);
         if (faces > BRC_CONVEX_FACES)
             return BRC_FAIL(context, BRC_BAD_INPUT,
                             "element %lld has %lld faces; contact takes at most %d: try another seed, or fewer small "
                             "elements beside large ones",
                             (long long)e, (long long)faces, (int)BRC_CONVEX_FACES);
+        out->corner_start[e] = (int32_t)d->vertex_start[e];
         out->corner_start[e + 1] = (int32_t)d->vertex_start[e + 1];
-        out->face_start[e + 1] = (int32_t)(out->face_start[e] + faces);
+        out->face_start[e] = (int32_t)brc_convex_face_start(d, e);
+        out->face_start[e + 1] = (int32_t)brc_convex_face_start(d, e + 1);
         for (int64_t k = 3 * d->vertex_start[e]; k < 3 * d->vertex_start[e + 1]; ++k)
             out->corner[k] = d->vertex[k] - d->position[3 * e + k % 3];
         out->radius[e] = brc_convex_reach(out, (int32_t)e);
@@ -149,35 +163,70 @@ static brc_status lay_out(brc_context *context, const brc_domain *d, brc_convex 
     return BRC_OK;
 }
 
-brc_status brc_convex_of_domain(brc_context *context, const brc_domain *domain, int n_threads, brc_convex *out)
+/* A tracer a thread. */
+typedef struct tracers {
+    int n;
+    tracer *one;
+    brc_outline_corner *room;
+    int32_t *corners;
+} tracers;
+
+static void free_tracers(tracers *t)
 {
-    if (domain->element_kind != BRC_ELEMENT_CELL)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "spheres have no faces; polyhedra are made of cells");
-    const int threads = n_threads > 0 ? n_threads : omp_get_max_threads();
+    brc_memory_free(t->corners);
+    brc_memory_free(t->room);
+    brc_memory_free(t->one);
+}
+
+static brc_status make_tracers(brc_context *context, const brc_domain *d, int64_t first, int64_t end, int n_threads,
+                               tracers *out)
+{
     int64_t most = 0;
-    int32_t *corners = NULL;
-    brc_outline_corner *room = NULL;
-    tracer *tracers = NULL;
+    out->n = n_threads > 0 ? n_threads : omp_get_max_threads();
+    for (int64_t e = first; e < end; ++e)
+        most = d->vertex_start[e + 1] - d->vertex_start[e] > most ? d->vertex_start[e + 1] - d->vertex_start[e] : most;
+    BRC_TRY(BRC_ALLOCATE(context, &out->one, out->n, "outlines"));
+    BRC_TRY(BRC_ALLOCATE(context, &out->room, 2 * most * out->n, "corners of a cell"));
+    BRC_TRY(BRC_ALLOCATE(context, &out->corners, most * out->n, "corners of a face"));
+    for (int t = 0; t < out->n; ++t)
+        out->one[t] = (tracer){out->room + 2 * most * t, out->corners + most * t};
+    return BRC_OK;
+}
+
+brc_status brc_convex_measure_cells(brc_context *context, const brc_domain *d, int64_t first, int64_t end,
+                                    int n_threads, brc_convex *out)
+{
+    BRC_ENDS_WITH(free_tracers) tracers t = {0};
+    BRC_TRY(lay_out(context, d, first, end, out));
+    BRC_TRY(make_tracers(context, d, first, end, n_threads, &t));
+    const int64_t bad = each_cell(d, first, end, t.n, t.one, out);
+    return bad < 0 ? BRC_OK : refuse_cell(context, d, bad);
+}
+
+brc_status brc_convex_outline_cells(brc_context *context, const brc_domain *d, int64_t first, int64_t end,
+                                    int n_threads, brc_convex *out)
+{
+    BRC_ENDS_WITH(free_tracers) tracers t = {0};
+    BRC_TRY(make_tracers(context, d, first, end, n_threads, &t));
+    each_cell(d, first, end, t.n, t.one, out);
+    return check_range(context, out, first, end, CELL_TOLERANCE);
+}
+
+brc_status brc_convex_of_domain(brc_context *context, const brc_domain *d, int n_threads, brc_convex *out)
+{
+    const int64_t n = d->n_elements;
     brc_convex made = {.n = 0};
-    brc_status status = lay_out(context, domain, &made, &most);
-    if (status != BRC_OK) goto cleanup;
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &tracers, threads, "outlines"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &room, 2 * most * threads, "corners of a cell"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &corners, most * threads, "corners of a face"));
-    for (int t = 0; t < threads; ++t)
-        tracers[t] = (tracer){room + 2 * most * t, corners + most * t};
-    const int64_t bad = each_cell(domain, threads, tracers, &made);
-    if (bad >= 0) BRC_TRY_OR(cleanup, refuse_cell(context, domain, bad));
+    brc_status status = BRC_OK;
+    if (d->element_kind != BRC_ELEMENT_CELL)
+        return BRC_FAIL(context, BRC_BAD_INPUT, "spheres have no faces; polyhedra are made of cells");
+    BRC_TRY_OR(cleanup, brc_convex_allocate(context, n, d->vertex_start[n], d->n_half_edges + d->n_free_faces, &made));
+    BRC_TRY_OR(cleanup, brc_convex_measure_cells(context, d, 0, n, n_threads, &made));
     BRC_TRY_OR(cleanup, brc_convex_allocate_loops(context, &made));
-    each_cell(domain, threads, tracers, &made);
-    BRC_TRY_OR(cleanup, brc_convex_check(context, &made, CELL_TOLERANCE));
+    BRC_TRY_OR(cleanup, brc_convex_outline_cells(context, d, 0, n, n_threads, &made));
     *out = made;
     made = (brc_convex){.n = 0};
 cleanup:
     brc_convex_free(&made);
-    brc_memory_free(corners);
-    brc_memory_free(room);
-    brc_memory_free(tracers);
     return status;
 }
 
@@ -212,16 +261,22 @@ static double flaw(const brc_convex *c, int32_t p)
     return worst;
 }
 
-brc_status brc_convex_check(brc_context *context, const brc_convex *convex, double tolerance)
+static brc_status check_range(brc_context *context, const brc_convex *convex, int64_t first, int64_t end,
+                              double tolerance)
 {
-    for (int32_t p = 0; p < convex->n; ++p) {
-        const double found = flaw(convex, p);
+    for (int64_t p = first; p < end; ++p) {
+        const double found = flaw(convex, (int32_t)p);
         if (!(found <= tolerance))
             return BRC_FAIL(context, BRC_INTERNAL,
-                            "polyhedron %d is not convex and closed: off by %.3g of its size, expected at most %.3g",
-                            (int)p, found, tolerance);
+                            "polyhedron %lld is not convex and closed: off by %.3g of its size, expected at most %.3g",
+                            (long long)p, found, tolerance);
     }
     return BRC_OK;
+}
+
+brc_status brc_convex_check(brc_context *context, const brc_convex *convex, double tolerance)
+{
+    return check_range(context, convex, 0, convex->n, tolerance);
 }
 
 void brc_convex_mass(const brc_convex *convex, int32_t p, brc_rigid *out)

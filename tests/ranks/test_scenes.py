@@ -35,8 +35,8 @@ FAILURES = []
 
 
 def launcher(folder, n):
-    """A program that is breccia-mpi on n ranks. On an odd number they take each other for far: messages fly while the inside is computed."""
-    far = "BRECCIA_RANKS_DELAY_US=0,1 " if n % 2 else ""
+    """A program that is breccia-mpi on n ranks. An odd number is of two machines, as they take it: messages fly while the inside is computed."""
+    far = "BRECCIA_RANKS_DELAY_US=0,1 BRECCIA_RANKS_MACHINES=2 " if n % 2 else ""
     path = os.path.join(folder, f"on-{n}")
     with open(path, "w", encoding="utf-8") as file:
         file.write(f"#!/bin/sh\n{far}exec {' '.join(under.LAUNCH)} -n {n} {PROGRAM} \"$@\"\n")

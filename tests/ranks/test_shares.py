@@ -31,14 +31,14 @@ def line(folder, n_cells, duration):
     return ["run", SCENE, "-o", folder, *[word for one in sets for word in ("--set", one)]]
 
 
-def run(n, *arguments, environment=None):
-    """Most memory of a rank [byte]; the run must end well."""
+def run(n, *arguments, environment=None, each=None):
+    """Most memory of a rank [byte], or of each, most first, by a name of smaps_rollup; the run must end well."""
     command = [PLAIN, *arguments] if n == 1 else under.LAUNCH + ["-n", str(n), PROGRAM, *arguments]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                               env=dict(os.environ, OMP_NUM_THREADS=str(3 - n), **(environment or {})))
-    most = under.watch(process, ["Pss"])
+                               env=dict(os.environ, OMP_NUM_THREADS=str(max(1, 3 - n)), **(environment or {})))
+    most = under.watch_each(process, each) if each else under.watch(process, ["Pss"])["Pss"]
     assert process.returncode == 0, process.stderr.read()
-    return most["Pss"]
+    return most
 
 
 def same(folder, n_cells, environment):
@@ -50,6 +50,13 @@ def same(folder, n_cells, environment):
         broken = json.load(file)["counts"]["broken"]
     expect(not different and not missing, f"{n_cells} cells, {environment or 'all sets'}: other {different + missing}" if different or missing
            else f"{n_cells} cells on 2 ranks: same bytes, {broken} bonds broken")
+
+
+def of_others(folder):
+    """What a rank holds for itself that writes no files: no polyhedra of contact, no outlines of cells, and of what is made ready or kept for
+    a checkpoint its own rows."""
+    alone, four = (run(n, *line(f"{folder}/others-{n}", 100000, "0.05 us"), each="Anonymous") for n in (1, 4))
+    expect(four[1] <= 0.25 * alone[0], f"a rank of four that writes no files: {four[1] / alone[0]:.2f} of {alone[0] / 1e6:.0f} MB (0.25 asked)")
 
 
 def memory(folder):
@@ -86,6 +93,7 @@ with tempfile.TemporaryDirectory() as temporary:
     for k, (cells, chosen) in enumerate(((9000, {}), (17000, {"BRECCIA_ISA": "v2"}))):
         same(f"{temporary}/{k}", cells, chosen)
     memory(temporary)
+    of_others(temporary)
     sent()
     hidden()
 for failure in FAILURES:

@@ -34,9 +34,10 @@ def ended(what, process, within=60):
 def answers():
     alone = subprocess.run([os.path.join(under.BUILD, "tests/transport_one"), "check"], capture_output=True, text=True)
     expect(alone.returncode == 0 and "1 ranks of one rank" in alone.stdout, f"one rank: {alone.stdout} {alone.stderr}")
-    for n, delay in [(1, 0), (2, 0), (3, 2000), (4, 0), (5, 1000), (8, 500)]:
-        code, output, lines, _ = ended("check", under.start(n, [TRANSPORT, "check"], delay))
-        expect(code == 0 and f"{n} ranks of" in output and not lines, f"check on {n}: {code} {output} {lines}")
+    for n, delay, machines in [(1, 0, 1), (2, 0, 1), (3, 2000, 1), (4, 0, 1), (5, 1000, 1), (8, 500, 1), (2, 0, 2), (5, 1000, 3)]:
+        command = [TRANSPORT, "check", str(machines)]
+        code, output, lines, _ = ended("check", under.start(n, command, delay, BRECCIA_RANKS_MACHINES=str(machines)))
+        expect(code == 0 and f"{n} ranks of" in output and not lines, f"check on {n}, {machines} machines: {code} {output} {lines}")
         expect(output.count("\n") == 1, f"check on {n}: other ranks than 0 print: {output!r}")
 
 

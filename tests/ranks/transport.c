@@ -1,12 +1,13 @@
 /* A program that only sends: what every function of ranks.h promises, and ranks that fail.
  *
- *     transport check             all of it, with answers that are known
+ *     transport check [MACHINES]  all of it, with answers that are known, on one machine or as many
  *     transport loop SECONDS      exchanges and reductions; each rank first writes "pid RANK PID" to stderr
  *     transport fail RANK         ... in the midst of which a rank fails
  *     transport fail-all          ... in which all fail at the same place, each for itself
  *     transport refuse RANK       one rank has something against it, and all agree
  */
 #include "../../host/base/log.h"
+#include "../../host/base/machine_memory.h"
 #include "../../host/base/memory.h"
 #include "../../host/base/ranks.h"
 #include <math.h>
@@ -14,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #define EXPECT(condition)                                                                                              \
@@ -187,22 +189,79 @@ static brc_status check_reductions(brc_context *context)
     return brc_ranks_barrier(context);
 }
 
-static brc_status check_place(brc_context *context)
+/* Every part of a machine's memory is written by one of its ranks, and seen by all; what is laid is each one's own. */
+static brc_status check_common_memory(brc_context *context)
+{
+    enum { N = 100000 };
+    brc_common_memory all;
+    const brc_ranks_place here = brc_ranks_here();
+    BRC_TRY(brc_common_memory_begin(context, N * (int64_t)sizeof(int32_t), &all));
+    EXPECT(all.part == here.local && all.parts == here.local_count);
+    int32_t *const number = all.data;
+    for (int32_t k = N * all.part / all.parts; k < N * (all.part + 1) / all.parts; ++k)
+        number[k] += k + 1; /* from 0, once */
+    BRC_TRY(brc_ranks_agree(context, BRC_OK));
+    for (int32_t k = 0; k < N; ++k)
+        EXPECT(number[k] == k + 1);
+    void *const at = mmap(NULL, (size_t)all.bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    const bool laid = brc_common_memory_lay(&all, at);
+    EXPECT(at != MAP_FAILED && laid == (here.count > 1)); /* a rank alone has a block */
+    BRC_TRY(brc_ranks_barrier(context));
+    if (laid) ((int32_t *)at)[here.local] = -1;
+    BRC_TRY(brc_ranks_barrier(context));
+    for (int32_t k = 0; k < N; ++k)
+        EXPECT(number[k] == k + 1 && (!laid || ((int32_t *)at)[k] == (k == here.local ? -1 : k + 1)));
+    brc_common_memory_free(&all);
+    brc_common_memory_free(&all); /* of nothing is allowed */
+    EXPECT(!laid || ((int32_t *)at)[N - 1] == N);
+    EXPECT(munmap(at, N * sizeof(int32_t)) == 0);
+    return BRC_OK;
+}
+
+/* The first ranks of machines among themselves. */
+static brc_status check_firsts(brc_context *context, int machines)
+{
+    const brc_ranks_place whole = brc_ranks_here();
+    int64_t sum = whole.mine;
+    if (whole.local == 0) {
+        brc_ranks_narrow();
+        const brc_ranks_place place = brc_ranks_here();
+        int64_t firsts[2] = {whole.mine, 1}, before = place.mine;
+        EXPECT(place.count == machines && place.local == 0 && place.local_count == 1);
+        BRC_TRY(brc_ranks_reduce(context, BRC_SUM, 2, firsts));
+        BRC_TRY(brc_ranks_broadcast(context, machines - 1, &before, sizeof before));
+        brc_ranks_widen();
+        EXPECT(firsts[1] == machines && before == machines - 1);
+        EXPECT(machines > 1 || firsts[0] == 0);
+    }
+    EXPECT(brc_ranks_mine() == whole.mine && brc_ranks_count() == whole.count);
+    BRC_TRY(brc_ranks_reduce(context, BRC_SUM, 1, &sum));
+    EXPECT(sum == (int64_t)whole.count * (whole.count - 1) / 2);
+    return BRC_OK;
+}
+
+static brc_status check_place(brc_context *context, int machines)
 {
     const brc_ranks_place place = brc_ranks_here();
     EXPECT(place.mine >= 0 && place.mine < place.count && place.node[0] && place.engine[0]);
-    EXPECT(place.local == place.mine && place.local_count == place.count); /* all on one machine here */
+    int64_t firsts = place.local == 0, local = place.local_count;
+    BRC_TRY(brc_ranks_reduce(context, BRC_SUM, 1, &firsts));
+    BRC_TRY(brc_ranks_reduce(context, BRC_MOST, 1, &local));
+    EXPECT(firsts == machines && place.local < place.local_count && local == (place.count + machines - 1) / machines);
+    EXPECT(place.far == (machines > 1));
     if (place.mine == 0) printf("%d ranks of %s on %s: all well\n", place.count, place.engine, place.node);
     return BRC_OK;
 }
 
-static brc_status check(brc_context *context)
+static brc_status check(brc_context *context, int machines)
 {
     BRC_TRY(check_exchanges(context));
     BRC_TRY(check_gathers(context));
     BRC_TRY(check_trade(context));
     BRC_TRY(check_reductions(context));
-    return check_place(context);
+    BRC_TRY(check_common_memory(context));
+    BRC_TRY(check_firsts(context, machines));
+    return check_place(context, machines);
 }
 
 static volatile sig_atomic_t interrupted;
@@ -233,7 +292,7 @@ static brc_status run(brc_context *context, int argc, char **argv)
 {
     const char *what = argc > 1 ? argv[1] : "check";
     const double number = argc > 2 ? strtod(argv[2], NULL) : 0;
-    if (strcmp(what, "check") == 0) return check(context);
+    if (strcmp(what, "check") == 0) return check(context, number > 0 ? (int)number : 1);
     if (strcmp(what, "loop") == 0) {
         fprintf(stderr, "pid %d %d\n", (int)brc_ranks_mine(), (int)getpid());
         return loop(context, number, -1);

@@ -51,6 +51,16 @@ def pages(process):
         return {}
 
 
+def watch_each(process, name):
+    """Until a Popen ends: the most bytes of each of its processes, most first."""
+    most = {}
+    while process.poll() is None:
+        for number in below(process.pid):
+            most[number] = max(most.get(number, 0), pages(number).get(name, 0))
+        time.sleep(0.1)
+    return sorted(most.values(), reverse=True)
+
+
 def watch(process, names):
     """Until a Popen ends: the most bytes that one of its processes has, by name."""
     most = dict.fromkeys(names, 0)

@@ -130,8 +130,9 @@ brc_status brc_check_ranks_look(brc_context *context, const brc_setup *setup, br
                             "device %s computes on one rank alone; on several take cpu or opencl devices",
                             info->selector);
         BRC_TRY(look_at_part(context, setup, k, setup->split->part[k].scene->model.kind, precision, ranks));
-        if (setup->built[k]) BRC_TRY(brc_domain_each_block(setup->built[k], false, add_bytes, &ranks->once_bytes));
+        if (setup->built[k]) BRC_TRY(brc_domain_each_block(setup->built[k], false, add_bytes, &ranks->domain_bytes));
     }
+    ranks->once_bytes += ranks->domain_bytes;
     ranks->exchange_s += 2 * log2((double)ranks->n_ranks) * latency_s;
     return BRC_OK;
 }
@@ -150,10 +151,12 @@ void brc_check_ranks_tell(FILE *file, const brc_scene *scene, const brc_predicti
     if (scene->has_contact || scene->has_fracture)
         fprintf(file, "; %.3g s if what all ranks do alike (search for pairs, cohesion) were all of a step",
                 told->seconds + messages);
-    fprintf(
-        file,
-        "\non %d ranks, memory: %.4g MB a rank (the first, which writes) and %.4g MB once a machine (domain, cells); "
-        "the most of a rank: %.3g %% of the bonds, %lld rows of %d other ranks\n",
-        (int)ranks->n_ranks, (told->resident_bytes - ranks->once_bytes - ranks->less_bytes) / 1e6,
-        ranks->once_bytes / 1e6, 100 * ranks->share, (long long)ranks->rows_of_others, (int)ranks->beside);
+    const double own = told->resident_bytes - ranks->once_bytes - ranks->less_bytes,
+                 for_files = told->host_bytes - ranks->domain_bytes; /* made by the first alone */
+    fprintf(file,
+            "\non %d ranks, memory: %.4g MB a rank (the first, which writes; about %.4g MB another) and %.4g MB once a "
+            "machine (domain, polyhedra of contact); the most of a rank: %.3g %% of the bonds, %lld rows of %d other "
+            "ranks\n",
+            (int)ranks->n_ranks, own / 1e6, fmax(0, own - for_files) / 1e6, ranks->once_bytes / 1e6, 100 * ranks->share,
+            (long long)ranks->rows_of_others, (int)ranks->beside);
 }

@@ -16,6 +16,7 @@ typedef struct brc_check_ranks {
     int32_t beside;         /* ranks that it has them of */
     double less_bytes;      /* of arrays of rows, on other ranks alone */
     double once_bytes;      /* once a machine: the domain and arrays of no rows */
+    double domain_bytes;    /* of these, the domain */
     double exchange_s;      /* of a step */
 } brc_check_ranks;
 

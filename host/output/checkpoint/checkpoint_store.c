@@ -85,7 +85,7 @@ brc_state_store brc_checkpoint_store_write(brc_h5 *h5, int32_t n_parts)
         snprintf(path, sizeof path, "parts/%d", (int)k);
         brc_h5_group(h5, path);
     }
-    return (brc_state_store){.self = h5, .part = -1, .numbers = put};
+    return (brc_state_store){.self = h5, .for_file = true, .part = -1, .numbers = put};
 }
 
 brc_state_store brc_checkpoint_store_read(brc_h5_read *h5)

@@ -1,6 +1,7 @@
 /* Points and polyhedra of a frame. Arrays of integers are long and go out a block at a time. */
 #include "frame_cells.h"
 #include "../h5_pack.h"
+#include "../../base/file.h"
 #include "../../base/memory.h"
 #include "../../solver/effects/fracture/fracture.h"
 #include <stdio.h>
@@ -49,9 +50,11 @@ brc_status brc_frame_cells_create(brc_context *context, const brc_assembly *asse
                              .points_frame = -1,
                              .starts_frame = -1};
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->part, assembly->n, "cells of a frame"));
-    for (int32_t k = 0; k < assembly->n; ++k)
-        BRC_TRY_OR(cleanup, brc_tessellation_create(context, brc_simulation_domain(assembly->part[k]), n_threads,
-                                                    &out->part[k]));
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        const brc_domain *const domain = brc_simulation_domain(assembly->part[k]);
+        out->part[k].domain = domain;
+        if (brc_file_writes()) BRC_TRY_OR(cleanup, brc_tessellation_create(context, domain, n_threads, &out->part[k]));
+    }
 cleanup:
     if (status != BRC_OK) brc_frame_cells_free(out);
     return status;
@@ -110,7 +113,8 @@ static brc_status join(brc_frame_cells *c)
         uint8_t *whole = NULL;
         if (brc_frame_is_sphere(c->part[k].domain)) continue;
         BRC_TRY(brc_simulation_whole(c->assembly->part[k], &whole));
-        const brc_status status = brc_tessellation_join(c->context, whole, c->n_threads, &c->part[k]);
+        brc_status status = BRC_OK;
+        if (brc_file_writes()) status = brc_tessellation_join(c->context, whole, c->n_threads, &c->part[k]);
         brc_memory_free(whole);
         BRC_TRY(status);
     }
@@ -401,6 +405,22 @@ static bool is_plain(const brc_frame_cells *c)
     return plain;
 }
 
+/* known: the points are those of the frame that has them. */
+static brc_status write_cells(const brc_frame_cells *c, brc_h5 *h5, bool known)
+{
+    if (c->elements_frame >= 0)
+        refer_to_elements(c, h5);
+    else
+        BRC_TRY(write_elements(c, h5));
+    if (known) {
+        refer_to_points(c, h5);
+        return BRC_OK;
+    }
+    BRC_TRY(write_points(c, h5));
+    if (brc_frame_has_spheres(c->assembly)) BRC_TRY(write_radius(c, h5));
+    return write_polyhedra(c, h5, is_plain(c) ? c->starts_frame : -1);
+}
+
 brc_status brc_frame_cells_write(brc_frame_cells *c, brc_h5 *h5, int64_t number)
 {
     int64_t n_broken = 0;
@@ -412,21 +432,11 @@ brc_status brc_frame_cells_write(brc_frame_cells *c, brc_h5 *h5, int64_t number)
     }
     const bool known = c->points_frame >= 0 && n_broken == c->n_broken;
     if (!known || !c->joined) BRC_TRY(join(c));
-    if (c->elements_frame >= 0) {
-        refer_to_elements(c, h5);
-    } else {
-        BRC_TRY(write_elements(c, h5));
-        c->elements_frame = number;
-    }
-    if (known) {
-        refer_to_points(c, h5);
-        return BRC_OK;
-    }
+    if (brc_file_writes()) BRC_TRY(write_cells(c, h5, known));
+    if (c->elements_frame < 0) c->elements_frame = number;
+    if (known) return BRC_OK;
     c->points_frame = number;
     c->n_broken = n_broken;
-    BRC_TRY(write_points(c, h5));
-    if (brc_frame_has_spheres(c->assembly)) BRC_TRY(write_radius(c, h5));
-    BRC_TRY(write_polyhedra(c, h5, is_plain(c) ? c->starts_frame : -1));
     if (is_plain(c) && c->starts_frame < 0) c->starts_frame = number;
     return BRC_OK;
 }

@@ -17,7 +17,7 @@ typedef struct brc_frame_cells {
     brc_context *context; /* borrowed, as is the assembly */
     const brc_assembly *assembly;
     int n_threads;
-    brc_tessellation *part; /* [assembly->n]; of a part of spheres: nothing */
+    brc_tessellation *part; /* [assembly->n]; of a part of spheres, and on ranks that write no files: nothing */
     bool joined;            /* the parts have points */
     int64_t elements_frame; /* number of the frame that has what never changes; -1: none yet */
     int64_t points_frame;   /* number of the frame whose points are those of now */
@@ -26,7 +26,7 @@ typedef struct brc_frame_cells {
     int64_t n_broken;       /* bonds of cells that were broken when points_frame was written */
 } brc_frame_cells;
 
-/* n_threads 0: as OpenMP decides. The outlines of all cells are found here. BRC_NO_MEMORY. */
+/* n_threads 0: as OpenMP decides. The outlines of all cells are found here, by the rank that writes. BRC_NO_MEMORY. */
 brc_status brc_frame_cells_create(brc_context *context, const brc_assembly *assembly, int n_threads,
                                   brc_frame_cells *out);
 void brc_frame_cells_free(brc_frame_cells *cells);

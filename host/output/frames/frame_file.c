@@ -54,6 +54,7 @@ static brc_status move_corners(const frame_part *p, const double *displacement, 
     uint8_t *whole = NULL, *cells = NULL; /* cells of each point */
     brc_status status = BRC_OK;
     BRC_TRY_OR(cleanup, brc_simulation_whole(p->simulation, &whole));
+    if (!brc_file_writes()) goto cleanup; /* this rank has no points */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(p->context, &cells, p->points.n, "corners of a frame"));
     for (int64_t e = 0; e < d->n_elements; ++e) {
         double gradient[3][3], u[3];

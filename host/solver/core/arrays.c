@@ -9,7 +9,7 @@ static brc_status upload(brc_simulation *s, brc_buffer *buffer, const double *va
     if (bytes_each == 8) return brc_buffer_write(buffer, 0, values, count * 8);
     BRC_LOCAL(s->context, count, float, narrow, "narrowed values");
     for (int64_t i = 0; i < count; ++i)
-        narrow[i] = (float)values[i];
+        if (values[i] != 0 || signbit(values[i])) narrow[i] = (float)values[i]; /* pages of zeros take no memory */
     return brc_buffer_write(buffer, 0, narrow, count * 4);
 }
 

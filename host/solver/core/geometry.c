@@ -1,5 +1,6 @@
 /* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares,
  * masses. */
+#include "../../device/shares.h"
 #include "core_internal.h"
 #include "sym3.h"
 #include <math.h>
@@ -41,10 +42,12 @@ brc_status brc_geometry_rows(brc_simulation *s, brc_buffer *buffer, int width, b
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
+    const uint8_t *const here = brc_buffer_slices_here(buffer);
     BRC_LOCAL(s->context, layout->n_slots * slice * width, double, rows, "neighbour rows");
 #pragma omp parallel for schedule(static)
     for (int32_t block = 0; block < layout->n_slices; ++block)
-        for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
+        for (int32_t slot = layout->slot_start[block]; (!here || here[block]) && slot < layout->slot_start[block + 1];
+             ++slot)
             for (int l = 0; l < slice; ++l) {
                 const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
                 double value[3];
@@ -74,9 +77,11 @@ static brc_status upload_connectivity(brc_simulation *s)
     BRC_TRY(brc_upload_int(s->core->row_start, layout->slot_start, layout->n_slices + 1));
     BRC_TRY(brc_upload_int(s->core->boundary, layout->boundary, layout->n_slices));
     BRC_TRY(brc_upload_int(s->core->asked_ahead, layout->ahead, layout->n_rows));
+    const uint8_t *const here = brc_buffer_slices_here(s->core->neighbour);
     BRC_LOCAL(s->context, layout->n_slots * slice, int32_t, rows, "neighbours");
     for (int32_t block = 0; block < layout->n_slices; ++block)
-        for (int32_t slot = layout->slot_start[block]; slot < layout->slot_start[block + 1]; ++slot)
+        for (int32_t slot = layout->slot_start[block]; (!here || here[block]) && slot < layout->slot_start[block + 1];
+             ++slot)
             for (int l = 0; l < slice; ++l) {
                 const int32_t h = layout->half_edge[(int64_t)slot * slice + l];
                 rows[(int64_t)slot * slice + l] =

@@ -1,4 +1,5 @@
 /* Arrays between the device's order and that of ids, on their way to a store and back. */
+#include "../../base/file.h"
 #include "state_store.h"
 #include "core_internal.h"
 #include <stdio.h>
@@ -103,6 +104,17 @@ static void pass(const passage *p)
     }
 }
 
+static brc_status read_for(const brc_state_store *store, brc_buffer *buffer, void *image, int64_t bytes)
+{
+    return store->for_file ? brc_buffer_read_for_file(buffer, image, bytes) : brc_buffer_read(buffer, 0, image, bytes);
+}
+
+/* Somebody sees what this rank shows. */
+static bool is_shown(const brc_state_store *store)
+{
+    return !store->loading && (!store->for_file || brc_file_writes());
+}
+
 brc_status brc_store_entry(brc_simulation *s, brc_state_store *store, const brc_state_entry *entry)
 {
     const brc_layout *layout = s->layout;
@@ -125,8 +137,8 @@ brc_status brc_store_entry(brc_simulation *s, brc_state_store *store, const brc_
     p.place = entries ? entry_of : layout->row_of_element;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &p.image, words * bytes, entry->name));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &p.values, p.n * entry->width * bytes, entry->name));
-    BRC_TRY_OR(cleanup, brc_buffer_read(entry->buffer, 0, p.image, words * bytes));
-    if (!store->loading) pass(&p);
+    BRC_TRY_OR(cleanup, read_for(store, entry->buffer, p.image, words * bytes));
+    if (is_shown(store)) pass(&p);
     BRC_TRY_OR(cleanup, store->numbers(store, entry->name, type, p.n, entry->width, p.values));
     if (store->loading) {
         pass(&p);
@@ -192,8 +204,8 @@ brc_status brc_store_list(brc_simulation *s, brc_state_store *store, const char 
             order[store->loading ? order[i].at : i].id = store->loading ? (int32_t)i : order[i].at;
     }
     if (!store->loading) {
-        BRC_TRY(brc_buffer_read(buffer, 0, image, n * (int64_t)row));
-        if (id) rearrange(image, row, image + (size_t)n * row, n, order);
+        BRC_TRY(read_for(store, buffer, image, n * (int64_t)row));
+        if (id && is_shown(store)) rearrange(image, row, image + (size_t)n * row, n, order);
     }
     BRC_TRY(store->numbers(store, name, type, n, width, image));
     if (store->loading) {

@@ -24,7 +24,8 @@ typedef struct brc_state_store brc_state_store;
 struct brc_state_store {
     void *self;
     bool loading;
-    int32_t part; /* of the scene's models; -1: the run as a whole. Names of different parts are different */
+    bool for_file; /* what is shown is kept by the rank that writes files alone; others may show anything */
+    int32_t part;  /* of the scene's models; -1: the run as a whole. Names of different parts are different */
     /* data [rows][columns] called `name` is kept, or filled. Loading: BRC_BAD_INPUT where there is none of this size,
      * or a double or float that is not finite. */
     brc_status (*numbers)(brc_state_store *store, const char *name, brc_stored_type type, int64_t rows, int32_t columns,

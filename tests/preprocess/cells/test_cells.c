@@ -19,7 +19,7 @@ static void a_lloyd_sweep_moves_seeds_to_the_centroids_of_their_cells(void **sta
     brc_walls walls;
     brc_solid *solid = cube_walls(*state, &walls);
     double x[6] = {0.2, 0.5, 0.5, 0.6, 0.5, 0.5};
-    assert_int_equal(brc_cells_relax(*state, x, 2, &walls, 0.5, 1, "test"), BRC_OK);
+    assert_int_equal(brc_cells_relax(*state, x, 2, &walls, 0.5, 1, false, "test"), BRC_OK);
     assert_true(x[0] == 0.2 && x[1] == 0.5 && x[2] == 0.5);
     assert_near(x[3], 0.7, 1e-15);
     brc_walls_free(&walls);
@@ -32,7 +32,7 @@ static void the_parts_of_two_slabs_are_written_down_in_order(void **state)
     brc_solid *solid = cube_walls(*state, &walls);
     const double x[6] = {0.2, 0.5, 0.5, 0.6, 0.5, 0.5};
     brc_cells cells;
-    assert_int_equal(brc_cells_compute(*state, x, 2, &walls, 0.5, 2, &cells), BRC_OK);
+    assert_int_equal(brc_cells_compute(*state, x, 2, &walls, 0.5, 2, false, &cells), BRC_OK);
     assert_int_equal(cells.n_runs, 1);
     const brc_cell_run *run = &cells.run[0];
     assert_near(cells.volume[0], 0.4, 5e-16); /* rounding of sums */
@@ -61,7 +61,7 @@ static void seeds_that_have_no_cell_are_refused(void **state)
     brc_solid *solid = cube_walls(*state, &walls);
     const double x[6] = {0.2, 0.5, 0.5, 1.6, 0.5, 0.5};
     brc_cells cells;
-    assert_int_equal(brc_cells_compute(*state, x, 2, &walls, 0.5, 1, &cells), BRC_BAD_INPUT);
+    assert_int_equal(brc_cells_compute(*state, x, 2, &walls, 0.5, 1, false, &cells), BRC_BAD_INPUT);
     test_says(*state, "seed 1 at (1.6, 0.5, 0.5) m lies outside the shape");
     brc_walls_free(&walls);
     brc_solid_free(&solid);

@@ -1,56 +1,43 @@
 /* Polyhedra of the elements and of the strikers' pieces on the device, and where the pieces are. */
-#include "../../../../preprocess/shapes/convex.h"
+#include "../../../../preprocess/shapes/convex_ranks.h"
+#include "../../../base/ranks.h"
 #include "contact_internal.h"
 #include "../strikers/striker_contact.h"
 #include <math.h>
 #include <string.h>
 
-/* Numbers of one kind, first those of the elements and then those of the pieces. */
-static brc_status upload_both(brc_simulation *s, brc_buffer *out, const double *first, int64_t n_first,
-                              const double *second, int64_t n_second, const char *what)
+/* Numbers that the ranks of a machine have together, which are given back. */
+static brc_status upload(brc_buffer *out, brc_common_memory *numbers)
 {
-    BRC_LOCAL(s->context, n_first + n_second, double, all, what);
-    if (n_first) memcpy(all, first, (size_t)n_first * sizeof *all);
-    if (n_second) memcpy(all + n_first, second, (size_t)n_second * sizeof *all);
-    return brc_upload_state(s, out, all, n_first + n_second);
+    BRC_TRY(brc_buffer_write_common(out, numbers));
+    brc_common_memory_free(numbers);
+    return BRC_OK;
 }
 
-/* Starts [n + 1] of the elements and of the pieces after them; NULL: elements have none. */
-static brc_status upload_starts(brc_simulation *s, brc_buffer *out, const int32_t *first, int64_t n_first,
-                                const int32_t *second, int64_t n_second, const char *what)
+static brc_status upload_state(brc_simulation *s, brc_buffer *out, brc_common_memory *numbers)
 {
-    const int32_t before = first ? first[n_first] : 0;
-    BRC_LOCAL(s->context, n_first + n_second + 1, int32_t, all, what);
-    for (int64_t k = 0; first && k <= n_first; ++k)
-        all[k] = first[k];
-    for (int64_t k = 0; k <= n_second; ++k)
-        all[n_first + k] = before + (second ? second[k] : 0);
-    return brc_upload_int(out, all, n_first + n_second + 1);
+    const double *wide = numbers->data;
+    const int64_t n = numbers->bytes / (int64_t)sizeof *wide;
+    BRC_ENDS_WITH(brc_common_memory_free) brc_common_memory narrow = {.data = NULL};
+    if (brc_state_bytes(s) == sizeof *wide) return upload(out, numbers);
+    BRC_TRY(brc_common_memory_begin(s->context, n * (int64_t)sizeof(float), &narrow));
+    for (int64_t k = n * narrow.part / narrow.parts; k < n * (narrow.part + 1) / narrow.parts; ++k)
+        ((float *)narrow.data)[k] = (float)wide[k];
+    BRC_TRY(brc_ranks_agree(s->context, BRC_OK)); /* all have written theirs */
+    brc_common_memory_free(numbers);
+    return upload(out, &narrow);
 }
 
-static brc_status upload_shapes(brc_simulation *s, const brc_convex *cells, const brc_convex *pieces)
+static brc_status upload_shapes(brc_simulation *s, brc_convex_common *shapes)
 {
     brc_contact_state *c = s->contact;
-    const char *what = "polyhedra";
-    const int64_t n = s->domain->n_elements, np = pieces->n;
-    const int64_t corners = cells->n ? cells->corner_start[n] : 0, faces = cells->n ? cells->face_start[n] : 0,
-                  loops = cells->n ? cells->loop_start[faces] : 0;
-    const int64_t more_corners = np ? pieces->corner_start[np] : 0, more_faces = np ? pieces->face_start[np] : 0,
-                  more_loops = np ? pieces->loop_start[more_faces] : 0;
-    BRC_FREED double *nothing = NULL;
-    BRC_TRY(upload_both(s, c->corner, cells->corner, 3 * corners, pieces->corner, 3 * more_corners, what));
-    BRC_TRY(upload_both(s, c->plane, cells->plane, 4 * faces, pieces->plane, 4 * more_faces, what));
-    if (!cells->n) BRC_TRY(BRC_ALLOCATE(s->context, &nothing, n, what));
-    BRC_TRY(upload_both(s, c->radius, cells->n ? cells->radius : nothing, n, pieces->radius, np, what));
-    BRC_TRY(
-        upload_starts(s, c->corner_start, cells->n ? cells->corner_start : NULL, n, pieces->corner_start, np, what));
-    BRC_TRY(upload_starts(s, c->face_start, cells->n ? cells->face_start : NULL, n, pieces->face_start, np, what));
-    BRC_TRY(upload_starts(s, c->loop_start, cells->n ? cells->loop_start : NULL, faces, pieces->loop_start, more_faces,
-                          what));
-    BRC_LOCAL(s->context, loops + more_loops, int32_t, loop, what);
-    if (loops) memcpy(loop, cells->loop, (size_t)loops * sizeof *loop);
-    if (more_loops) memcpy(loop + loops, pieces->loop, (size_t)more_loops * sizeof *loop);
-    return brc_upload_int(c->loop, loop, loops + more_loops);
+    BRC_TRY(upload_state(s, c->corner, &shapes->memory[BRC_CONVEX_CORNER]));
+    BRC_TRY(upload_state(s, c->plane, &shapes->memory[BRC_CONVEX_PLANE]));
+    BRC_TRY(upload_state(s, c->radius, &shapes->memory[BRC_CONVEX_RADIUS]));
+    BRC_TRY(upload(c->corner_start, &shapes->memory[BRC_CONVEX_CORNER_START]));
+    BRC_TRY(upload(c->face_start, &shapes->memory[BRC_CONVEX_FACE_START]));
+    BRC_TRY(upload(c->loop_start, &shapes->memory[BRC_CONVEX_LOOP_START]));
+    return upload(c->loop, &shapes->memory[BRC_CONVEX_LOOP]);
 }
 
 /* Of each piece a ball that holds it, about the middle of its corners; of a plane its normal and height. */
@@ -103,10 +90,9 @@ static brc_status upload_pieces(brc_simulation *s)
 brc_status brc_contact_shapes(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
-    BRC_ENDS_WITH(brc_convex_free) brc_convex cells = {0};
-    brc_convex none = {0};
-    if (!brc_has_spheres(s)) BRC_TRY(brc_convex_of_domain(s->context, s->domain, 0, &cells));
-    if (cells.n && c->n_pieces) BRC_TRY(brc_strikers_check_edges(s, &cells));
-    BRC_TRY(upload_shapes(s, &cells, c->n_pieces ? s->wants.pieces : &none));
+    BRC_ENDS_WITH(brc_convex_common_free) brc_convex_common shapes = {.all = {.n = 0}};
+    BRC_TRY(brc_convex_share(s->context, s->domain, c->n_pieces ? s->wants.pieces : NULL, 0, &shapes));
+    if (!brc_has_spheres(s) && c->n_pieces) BRC_TRY(brc_strikers_check_edges(s, &shapes.all));
+    BRC_TRY(upload_shapes(s, &shapes));
     return upload_pieces(s);
 }

@@ -18,6 +18,7 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
     brc_cell_breaks *cells = s->fracture->cells;
+    const uint8_t *const here = brc_buffer_slices_here(cells->limit); /* as of the others */
     BRC_LOCAL(s->context, n_entries, double, limit, "limits of bonds");
     BRC_LOCAL(s->context, n_entries, double, whole, "unbroken bonds");
     BRC_LOCAL(s->context, layout->n_rows, double, least, "smallest limits");
@@ -25,15 +26,17 @@ static brc_status upload_bonds(brc_simulation *s, const double *strength)
     for (int32_t r = 0; r < layout->n_rows; ++r)
         least[r] = never;
     BRC_TRY(brc_layout_twins(s->context, layout, d, twin));
-    for (int64_t k = 0; k < n_entries; ++k) {
-        const int32_t h = layout->half_edge[k];
-        const double value = h >= 0 ? strength[d->bond[h]] : 0;
-        limit[k] = value > 0 ? value : never;
-        whole[k] = h >= 0;
-        if (h < 0) continue;
-        double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
-        *own = fmin(*own, limit[k]);
-    }
+    for (int32_t slice = 0; slice < layout->n_slices; ++slice)
+        for (int64_t k = (int64_t)layout->slot_start[slice] * layout->slice;
+             (!here || here[slice]) && k < (int64_t)layout->slot_start[slice + 1] * layout->slice; ++k) {
+            const int32_t h = layout->half_edge[k];
+            const double value = h >= 0 ? strength[d->bond[h]] : 0;
+            limit[k] = value > 0 ? value : never;
+            whole[k] = h >= 0;
+            if (h < 0) continue;
+            double *own = &least[layout->row_of_element[d->neighbour[d->twin[h]]]];
+            *own = fmin(*own, limit[k]);
+        }
     BRC_TRY(brc_upload_coeff(s, cells->limit, limit, n_entries));
     BRC_TRY(brc_upload_coeff(s, cells->alive, whole, n_entries));
     BRC_TRY(brc_upload_coeff(s, cells->least, least, layout->n_rows));
