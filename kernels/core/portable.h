@@ -342,27 +342,23 @@ typedef int crew_room;
 #define CREW_END(begin, end)                                                                                           \
     ((begin) + (CREW_PLACE + 1) * (SCAN_BLOCK / CREW) < (end) ? (begin) + (CREW_PLACE + 1) * (SCAN_BLOCK / CREW)       \
                                                               : (end))
-/* The sum of x over those of a crew before this one, and over all. */
-typedef struct {
-    int before, all;
-} crew_sums;
-LAW crew_sums crew_sum(crew_room room, int x)
+/* The sum of x over those of a crew before this one, or with `all` over the whole crew. */
+LAW int crew_sum(crew_room room, int x, int all)
 {
-    crew_sums sum = {0, x};
 #if CREW > 1
+    int sum = 0;
     room[CREW_PLACE] = x;
     barrier(CLK_LOCAL_MEM_FENCE);
-    sum.all = 0;
-    for (int t = 0; t < CREW; ++t) {
-        if (t == CREW_PLACE) sum.before = sum.all;
-        sum.all += room[t];
-    }
+    for (int t = 0; t < (all ? CREW : CREW_PLACE); ++t) sum += room[t];
     barrier(CLK_LOCAL_MEM_FENCE);
+    return sum;
 #else
     (void)room;
+    return all ? x : 0;
 #endif
-    return sum;
 }
+#define CREW_ALL(room, x) crew_sum(room, x, 1)
+#define CREW_BEFORE(room, x) crew_sum(room, x, 0)
 
 /* Numbers of rows of three, one after the other: work-items of a group that lie side by side do numbers that do, which
  * a GPU reads and writes at once. */

@@ -83,7 +83,7 @@ KERNEL void ring_count(int n_crew_parts, int n, int which, OWN(int) touched, OWN
 #define ADD(l) sum += LANE_ITEM(upto[k], l);
             LANE_EACH(ADD)
 #undef ADD
-            sum = crew_sum(room, sum).all;
+            sum = CREW_ALL(room, sum);
             if (CREW_FIRST) count[k * (n_crew_parts + 1) + b] = sum;
         }
     }
@@ -113,16 +113,14 @@ KERNEL void ring_list(int n_crews, int n, int which, UPDATE(int) touched, UPDATE
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
         const int row = n_crews + 1, from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
         int to_0 = next[b], to_1 = next[row + b], to_2 = next[2 * row + b], to_3 = next[3 * row + b];
-#if CREW > 1
-        int own[RING_KINDS] = {0, 0, 0, 0};
+        int before[RING_KINDS] = {0, 0, 0, 0};
         LOADS_TOGETHER(8)
-        for (int e = from; e < to; ++e)
-            for (int k = 0; k < RING_KINDS; ++k) own[k] -= ring_is_upto(which, k, touched[e], level[e]);
-        to_0 += crew_sum(room, own[0]).before, to_1 += crew_sum(room, own[1]).before;
-        to_2 += crew_sum(room, own[2]).before, to_3 += crew_sum(room, own[3]).before;
-#else
-        (void)room;
-#endif
+        for (int first = from; CREW > 1 && first < to; first += W) {
+            const lane_int t = int_load(touched, (brc_size)first), l = int_load(level, (brc_size)first);
+            for (int k = 0; k < RING_KINDS; ++k) before[k] += lane_count(ring_is_upto(which, k, t, l));
+        }
+        to_0 += CREW_BEFORE(room, before[0]), to_1 += CREW_BEFORE(room, before[1]);
+        to_2 += CREW_BEFORE(room, before[2]), to_3 += CREW_BEFORE(room, before[3]);
         for (int first = from; first < to; first += W) {
             const brc_size at = (brc_size)first;
             const lane_int own = lane_own(first), t = int_load(touched, at), l = int_load(level, at);

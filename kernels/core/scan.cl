@@ -13,7 +13,7 @@ KERNEL void scan_sums(int n_crews, int n, OWN(int) x, PUT(int) sum)
         int total = 0;
         LOADS_TOGETHER(16)
         for (int i = from; i < to; ++i) total += x[i];
-        total = crew_sum(room, total).all;
+        total = CREW_ALL(room, total);
         if (CREW_FIRST) sum[b] = total;
     }
 }
@@ -42,7 +42,7 @@ KERNEL void scan_fill(int n_crews, int n, OWN(int) x, OWN(int) sum, SCATTER(int)
                   from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
         int own = 0;
         for (int i = from; CREW > 1 && i < to; ++i) own += x[i];
-        int before = sum[b] + crew_sum(room, own).before;
+        int before = sum[b] + CREW_BEFORE(room, own);
         LOADS_TOGETHER(16)
         for (int i = from; i < to; ++i) {
             start[i] = before;

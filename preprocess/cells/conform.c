@@ -6,6 +6,7 @@
 #include "mirror.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Depth to which seeds are mirrored at first [of the spacing]: about the farthest corner of a cell of a random grid. */
 #define FIRST_REACH 2.0
@@ -16,6 +17,8 @@ enum { MOST_TRIES = 4 };
 #define LARGE_FACE 0.2
 #define OUTSIDE_LIMIT 1e-6
 #define CONCAVE_REACH 2.0
+/* Cosine of the angle between its normals up to which two places are of one wall. */
+#define ONE_WALL 0.5
 
 brc_status brc_conform_walls(brc_context *context, const double *position, int64_t n, double spacing, bool fit,
                              int n_threads, brc_walls *walls)
@@ -41,6 +44,39 @@ brc_status brc_conform_cells(brc_context *context, const double *position, int64
                     walls->reach, walls->reach / spacing);
 }
 
+/* Outward normal of the surface where the way from a, inside, to b first leaves the solid, by bisection in PIECES;
+ * false: it does not. */
+static bool normal_of_exit(const brc_solid *solid, const double a[3], const double b[3], double spacing, double n[3])
+{
+    enum { PIECES = 16, HALVINGS = 20 };
+    double inside = 0, outside = -1, x[3];
+    brc_foot foot;
+    for (int k = 1; k <= PIECES + HALVINGS && (outside < 0 ? k <= PIECES : true); ++k) {
+        const double at = outside < 0 ? (double)k / PIECES : 0.5 * (inside + outside);
+        for (int d = 0; d < 3; ++d)
+            x[d] = a[d] + at * (b[d] - a[d]);
+        if (brc_solid_inside(solid, x, 0))
+            inside = at;
+        else
+            outside = at;
+    }
+    for (int d = 0; d < 3; ++d)
+        x[d] = a[d] + inside * (b[d] - a[d]);
+    if (outside < 0 || brc_solid_feet(solid, x, spacing, &foot, 1) < 1) return false;
+    memcpy(n, foot.normal, sizeof foot.normal);
+    return true;
+}
+
+/* Whether the way from seed a by c to seed b leaves the solid and comes back through one round wall, which small faces
+ * beside it do, rather than across a gap between two. */
+static bool grazes(const brc_solid *solid, const double a[3], const double c[3], const double b[3], double spacing)
+{
+    double out[3], in[3];
+    if (!normal_of_exit(solid, a, c, spacing, out) && !normal_of_exit(solid, c, b, spacing, out)) return false;
+    if (!normal_of_exit(solid, b, c, spacing, in) && !normal_of_exit(solid, c, a, spacing, in)) return false;
+    return out[0] * in[0] + out[1] * in[1] + out[2] * in[2] > ONE_WALL;
+}
+
 /* Length of the way along half-edge h of element e that is outside [m]. own: radius of a ball around each seed that
  * lies inside [m]. */
 static double bond_outside(const brc_walls *walls, const brc_domain *domain, int64_t e, int64_t h, double spacing,
@@ -59,7 +95,7 @@ static double bond_outside(const brc_walls *walls, const brc_domain *domain, int
     }
     if (outside <= OUTSIDE_LIMIT * spacing || brc_solid_concave_edge_near(walls->solid, c, CONCAVE_REACH * spacing))
         return 0.0;
-    return outside;
+    return grazes(walls->solid, domain->position + 3 * e, c, domain->position + 3 * j, spacing) ? 0.0 : outside;
 }
 
 brc_status brc_conform_check(brc_context *context, const brc_walls *walls, double spacing, int n_threads,

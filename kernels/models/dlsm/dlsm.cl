@@ -83,16 +83,15 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(aside room, dlsm_row row, dlsm_flux_su
                                           lane_mat3 h_j, GATHER(coeff) modulus, GATHER(coeff) ell_of, state_vec3 u,
                                           lane_mat3 h, lane_mat3 m, lane k, coeff ell_one, int finite, int plain)
 {
-    const lane_int j = row.j;
     const lane_vec3 s = row.area;
     const lane_vec3 x = lane_vec3_scale(REAL(0.5) * row.ratio, s); /* R / 2 [m] */
     const lane_vec3 h_x = lane_mat3_mul_vec(aside_get9(room, ASIDE_H, h), x), h_j_x = lane_mat3_mul_vec(h_j, x),
                     m_x = lane_mat3_mul_vec(aside_get9(room, ASIDE_M, m), x);
 #if BRC_MANY_MATERIALS
-    const lane weight = lane_min(gather_component(modulus, j), k) / k;
-    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
+    const lane weight = lane_min(gather_component(modulus, row.j), k) / k;
+    const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, row.j), u);
     const lane_vec3 r = lane_vec3_scale(weight, lane_vec3_sub(jump, lane_vec3_add(h_x, h_j_x)));
-    const lane_vec3 m_j_x = dlsm_compaction_along(h_j, h_j_x, x, gather_component(ell_of, j), finite);
+    const lane_vec3 m_j_x = dlsm_compaction_along(h_j, h_j_x, x, gather_component(ell_of, row.j), finite);
     const lane_vec3 mr = lane_vec3_scale(weight, lane_vec3_add(m_x, m_j_x));
 #else
     const lane_vec3 r = lane_vec3_sub(h_x, h_j_x);

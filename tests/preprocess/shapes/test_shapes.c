@@ -162,6 +162,22 @@ static void a_gap_narrower_than_the_cells_is_refused_not_bridged(void **state)
     brc_domain_free(&d);
 }
 
+/* Ways between seeds beside a round wall graze it by small faces: no gap is there. Four to six cells across the tube,
+ * round one way and hollow the other. */
+static void a_thin_ring_is_no_gap(void **state)
+{
+    static const double tube = 0.04, pi = 3.14159265358979;
+    const brc_shape ring = {.kind = BRC_SHAPE_TORUS, .axis = 2, .radius = 1.0, .radius2 = tube};
+    for (int n = 5000; n <= 15000; n += 5000) {
+        brc_build_request r = request_for(ring, n);
+        brc_domain *d = test_build(*state, &r);
+        check_domain(*state, d, "thin ring");
+        /* facets of a tube of k cells across stand off it by about 1 / (2 k^2) of its radius */
+        assert_near(d->quality.volume_cells / (2 * pi * pi * tube * tube), 1.0, 0.03);
+        brc_domain_free(&d);
+    }
+}
+
 /* Build, and what was warned of. */
 static brc_domain *build_and_listen(brc_context *context, const brc_build_request *r, char *said, size_t room)
 {
@@ -341,6 +357,7 @@ int main(int argc, char **argv)
         cmocka_unit_test_setup_teardown(free_faces_know_their_wall, test_begin, test_end),
         cmocka_unit_test_setup_teardown(faces_at_a_straight_concave_edge_lie_in_its_walls, test_begin, test_end),
         cmocka_unit_test_setup_teardown(a_gap_narrower_than_the_cells_is_refused_not_bridged, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(a_thin_ring_is_no_gap, test_begin, test_end),
         cmocka_unit_test_setup_teardown(features_smaller_than_a_cell_are_warned_of_by_name_and_size, test_begin,
                                         test_end),
         cmocka_unit_test_setup_teardown(a_wall_without_a_face_is_warned_of_by_name_and_size, test_begin, test_end),
