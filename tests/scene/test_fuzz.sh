@@ -15,8 +15,8 @@ trap 'rm -rf "$folder"' EXIT
 printf 'int LLVMFuzzerTestOneInput(const unsigned char *d, unsigned long n) { return d && n > 1e9; }\n' > "$folder/probe.c"
 "$clang" -fsanitize=fuzzer,address "$folder/probe.c" -o "$folder/probe" 2>/dev/null ||
     skip "$clang has no libFuzzer runtime (Debian: libclang-rt-14-dev)"
-# shapes and limits of quality come from the build's library; the version is generated, and the reader does not ask for it; ranks_mpi.c is ranks_one.c of breccia-mpi
-base=$(ls "$source"/host/base/*.c | grep -v -e /version.c -e /ranks_mpi.c)
+# shapes and limits of quality come from the build's library; the version is generated, and the reader does not ask for it; ranks_mpi*.c are ranks_one.c of breccia-mpi
+base=$(ls "$source"/host/base/*.c | grep -v -e /version.c -e /ranks_mpi)
 "$clang" -std=gnu11 -D_GNU_SOURCE -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
     "$source"/tests/fuzz/fuzz_scene.c "$source"/host/scene/*.c "$source"/host/scene/models/*.c $base "${BRC_BUILD_DIR:?}"/libbrc_preprocess.a -o "$folder/fuzz_scene" -lyaml -lm "$(gcc -print-file-name=libgomp.so)"
 mkdir "$folder/corpus"
