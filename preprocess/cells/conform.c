@@ -17,7 +17,8 @@ enum { MOST_TRIES = 4 };
 #define LARGE_FACE 0.2
 #define OUTSIDE_LIMIT 1e-6
 #define CONCAVE_REACH 2.0
-/* Cosine of the angle between its normals up to which two places are of one wall. */
+/* Cosine of the angle between its normals up to which two places are of one wall: 60 degrees, which a way of a cell's
+ * width spans on a hollow wall of that radius; across a gap normals are opposed. */
 #define ONE_WALL 0.5
 
 brc_status brc_conform_walls(brc_context *context, const double *position, int64_t n, double spacing, bool fit,
@@ -44,25 +45,31 @@ brc_status brc_conform_cells(brc_context *context, const double *position, int64
                     walls->reach, walls->reach / spacing);
 }
 
-/* Outward normal of the surface where the way from a, inside, to b first leaves the solid, by bisection in PIECES;
- * false: it does not. */
+static void place_between(const double a[3], const double b[3], double share, double x[3])
+{
+    for (int d = 0; d < 3; ++d)
+        x[d] = a[d] + share * (b[d] - a[d]);
+}
+
+/* Outward normal of the surface where the way from a, inside, to b first leaves the solid, looked for in PIECES and
+ * then by HALVINGS; false: it does not. */
 static bool normal_of_exit(const brc_solid *solid, const double a[3], const double b[3], double spacing, double n[3])
 {
     enum { PIECES = 16, HALVINGS = 20 };
-    double inside = 0, outside = -1, x[3];
+    double inside = 0, outside = 0, x[3];
     brc_foot foot;
-    for (int k = 1; k <= PIECES + HALVINGS && (outside < 0 ? k <= PIECES : true); ++k) {
-        const double at = outside < 0 ? (double)k / PIECES : 0.5 * (inside + outside);
-        for (int d = 0; d < 3; ++d)
-            x[d] = a[d] + at * (b[d] - a[d]);
-        if (brc_solid_inside(solid, x, 0))
-            inside = at;
-        else
-            outside = at;
+    for (int k = 1; outside == 0; ++k) {
+        if (k > PIECES) return false;
+        place_between(a, b, (double)k / PIECES, x);
+        *(brc_solid_inside(solid, x, 0) ? &inside : &outside) = (double)k / PIECES;
     }
-    for (int d = 0; d < 3; ++d)
-        x[d] = a[d] + inside * (b[d] - a[d]);
-    if (outside < 0 || brc_solid_feet(solid, x, spacing, &foot, 1) < 1) return false;
+    for (int k = 0; k < HALVINGS; ++k) {
+        const double middle = 0.5 * (inside + outside);
+        place_between(a, b, middle, x);
+        *(brc_solid_inside(solid, x, 0) ? &inside : &outside) = middle;
+    }
+    place_between(a, b, inside, x);
+    if (brc_solid_feet(solid, x, spacing, &foot, 1) < 1) return false;
     memcpy(n, foot.normal, sizeof foot.normal);
     return true;
 }

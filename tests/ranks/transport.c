@@ -249,6 +249,7 @@ static brc_status check_place(brc_context *context, int machines)
     BRC_TRY(brc_ranks_reduce(context, BRC_MOST, 1, &local));
     EXPECT(firsts == machines && place.local < place.local_count && local == (place.count + machines - 1) / machines);
     EXPECT(place.far == (machines > 1));
+    EXPECT(machines > 1 || (place.local == place.mine && place.local_count == place.count));
     if (place.mine == 0) printf("%d ranks of %s on %s: all well\n", place.count, place.engine, place.node);
     return BRC_OK;
 }

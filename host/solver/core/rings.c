@@ -1,7 +1,7 @@
 #include "core_internal.h"
 #include "../../device/shares.h"
 
-enum { BLOCK = 1024 }; /* SCAN_BLOCK of scan.cl */
+enum { BLOCK = 1024 }; /* SCAN_BLOCK of portable.h */
 
 static int32_t blocks_of(const brc_simulation *s)
 {

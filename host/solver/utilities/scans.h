@@ -4,7 +4,7 @@
 
 #include "../../device/device.h"
 
-enum { BRC_SCAN_BLOCK = 1024, BRC_SORT_BINS = 256 }; /* as in scan.cl */
+enum { BRC_SCAN_BLOCK = 1024, BRC_SORT_BINS = 256 }; /* as in portable.h and scan.cl */
 
 typedef struct brc_scan_kernels {
     brc_kernel *sums, *tops, *fill, *count, *move;

@@ -1,7 +1,7 @@
 /* Algebra of vectors, and sums in fixed blocks (vector.cl). */
 #include "../core/solver.h"
 
-enum { SUM_BLOCK = 1024 }; /* as in vector.cl */
+enum { SUM_BLOCK = 1024 }; /* SCAN_BLOCK of portable.h */
 
 /* One that a model does not use stays NULL. */
 struct brc_vector_kernels {
