@@ -1,6 +1,7 @@
 #include "support.h"
 #include "../../host/base/log.h"
 #include "../../host/base/random.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -189,4 +190,46 @@ bool is_listed(const char *const *names, const char *name)
     for (; *names; ++names)
         if (strcmp(*names, name) == 0) return true;
     return false;
+}
+
+typedef struct elastica_point {
+    double angle, curvature, x, z;
+} elastica_point;
+
+static elastica_point elastica_end(double length, const double force[2], double curvature)
+{
+    enum { STEPS = 400 };
+    const double h = length / STEPS;
+    elastica_point p = {0, curvature, 0, 0};
+    for (int i = 0; i < STEPS; ++i) {
+        elastica_point slope[4], sum = p, at = p;
+        for (int k = 0; k < 4; ++k) {
+            const double weight = (k == 1 || k == 2 ? 2 : 1) * h / 6, next = (k == 2 ? 1 : 0.5) * h;
+            slope[k] = (elastica_point){at.curvature, force[0] * sin(at.angle) - force[1] * cos(at.angle),
+                                        cos(at.angle), sin(at.angle)};
+            sum.angle += weight * slope[k].angle, sum.curvature += weight * slope[k].curvature;
+            sum.x += weight * slope[k].x, sum.z += weight * slope[k].z;
+            at.angle = p.angle + next * slope[k].angle, at.curvature = p.curvature + next * slope[k].curvature;
+        }
+        p = sum;
+    }
+    return p;
+}
+
+void elastica_tip(double stiffness, double length, double along, double across, double tip[2])
+{
+    const double force[2] = {along / stiffness, across / stiffness};
+    double low = 0, high = 1e-12 / length;
+    while (elastica_end(length, force, high).curvature < 0)
+        low = high, high *= 2;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = 0.5 * (low + high);
+        if (elastica_end(length, force, middle).curvature < 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    const elastica_point end = elastica_end(length, force, high);
+    tip[0] = end.x - length;
+    tip[1] = end.z;
 }

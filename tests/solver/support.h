@@ -65,6 +65,10 @@ bool is_listed(const char *const *names, const char *name);
 void assert_same_breaks(bench_case *a, bench_case *b, int64_t n_steps);
 /* The named device can run here in double precision. */
 bool device_is_there(const char *selector);
+/* Tip of a slender beam along x, clamped at 0, under dead forces along and across it at its end: how far it moved along
+ * x and across [m]. Euler's elastica, EI theta'' = along sin(theta) - across cos(theta), theta(0) = theta'(length) = 0,
+ * by Runge and Kutta's steps and bisection for theta'(0): its first root, of a beam that bends one way. */
+void elastica_tip(double stiffness, double length, double along, double across, double tip[2]);
 /* Uniform in (-1, 1), a fixed sequence by index. */
 double random_at(uint64_t index);
 

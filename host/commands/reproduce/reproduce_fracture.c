@@ -61,6 +61,60 @@ static void add_early(const brc_scene *scene, const brc_domain *domain, int64_t 
     brc_outcome_add(outcome, "first_hundredth_from_rim", "m", sum / area, NAN);
 }
 
+/* Volumes of the fragments: the largest, those below least_piece together, both over all, and how many are halves. */
+typedef struct sizes {
+    int64_t n_fragments, n_halves;
+    double largest, crumbs;
+} sizes;
+
+/* volume: [n_elements], overwritten. */
+static sizes sizes_of(const brc_domain *d, int64_t n_fragments, const int32_t *fragment, double *volume)
+{
+    sizes out = {.n_fragments = n_fragments};
+    double all = 0;
+    for (int64_t f = 0; f < n_fragments; ++f)
+        volume[f] = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        volume[fragment[e]] += d->volume[e];
+        all += d->volume[e];
+    }
+    for (int64_t f = 0; f < n_fragments; ++f) {
+        out.largest = fmax(out.largest, volume[f] / all);
+        if (volume[f] < least_piece * all) out.crumbs += volume[f] / all;
+        out.n_halves += volume[f] >= least_half * all;
+    }
+    return out;
+}
+
+/* As the body was when it parted: at the first step after which no fragment had more than what a half leaves of it.
+ * Fragments only grow smaller, so the step is found by halving. fragment, volume: [n_elements], overwritten. */
+static brc_status add_parted(brc_context *context, const brc_domain *d, int64_t n, const brc_break *breaks,
+                             int32_t *fragment, double *volume, brc_outcome *outcome)
+{
+    int64_t n_steps = 0, low = 0, high;
+    sizes parted = {0};
+    BRC_LOCAL(context, d->n_half_edges, uint8_t, whole, "fragments");
+    BRC_LOCAL(context, n, int64_t, end, "fragments"); /* breaks up to the end of each step that has some */
+    for (int64_t k = 1; k <= n; ++k)
+        if (k == n || breaks[k].step != breaks[k - 1].step) end[n_steps++] = k;
+    for (high = n_steps; low < high;) {
+        const int64_t middle = low + (high - low) / 2;
+        for (int64_t h = 0; h < d->n_half_edges; ++h)
+            whole[h] = 1;
+        for (int64_t k = 0; k < end[middle]; ++k)
+            whole[d->bond_half_edge[breaks[k].bond]] = 0;
+        const sizes now = sizes_of(d, brc_fragments_over(d, whole, fragment), fragment, volume);
+        if (now.largest > 1 - least_half)
+            low = middle + 1;
+        else
+            high = middle, parted = now;
+    }
+    if (parted.n_fragments == 0) return BRC_OK;
+    brc_outcome_add(outcome, "halves_parted", "-", (double)parted.n_halves, NAN);
+    brc_outcome_add(outcome, "crumbs_parted", "-", parted.crumbs, NAN);
+    return BRC_OK;
+}
+
 brc_status brc_fracture_values(brc_context *context, brc_simulation *simulation, brc_outcome *outcome)
 {
     const brc_domain *domain = brc_simulation_domain(simulation);
@@ -68,30 +122,23 @@ brc_status brc_fracture_values(brc_context *context, brc_simulation *simulation,
     const brc_break *breaks;
     brc_crack_statistics cracks;
     int32_t *fragment = NULL;
-    double *volume = NULL, all = 0, largest = 0, crumbs = 0;
-    int64_t n, n_fragments, n_halves = 0;
+    double *volume = NULL;
+    int64_t n, n_fragments;
     brc_status status = BRC_OK;
     BRC_TRY(brc_simulation_breaks(simulation, &n, &breaks));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &fragment, domain->n_elements, "fragments"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &volume, domain->n_elements, "fragments"));
     BRC_TRY_OR(cleanup, brc_simulation_fragments(simulation, fragment, &n_fragments));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &volume, n_fragments, "fragments"));
     brc_crack_statistics_of(n, breaks, fragment, &cracks);
-    for (int64_t e = 0; e < domain->n_elements; ++e) {
-        volume[fragment[e]] += domain->volume[e];
-        all += domain->volume[e];
-    }
-    for (int64_t f = 0; f < n_fragments; ++f) {
-        largest = fmax(largest, volume[f]);
-        if (volume[f] < least_piece * all) crumbs += volume[f];
-        n_halves += volume[f] >= least_half * all;
-    }
+    const sizes last = sizes_of(domain, n_fragments, fragment, volume);
     brc_outcome_add(outcome, "broken", "-", (double)n, NAN);
     brc_outcome_add(outcome, "crack_area", "m^2", cracks.total_area, NAN);
     brc_outcome_add(outcome, "fragments", "-", (double)n_fragments, NAN);
-    brc_outcome_add(outcome, "largest_fragment", "-", largest / all, NAN);
-    brc_outcome_add(outcome, "halves", "-", (double)n_halves, NAN);
-    brc_outcome_add(outcome, "crumbs", "-", crumbs / all, NAN);
+    brc_outcome_add(outcome, "largest_fragment", "-", last.largest, NAN);
+    brc_outcome_add(outcome, "halves", "-", (double)last.n_halves, NAN);
+    brc_outcome_add(outcome, "crumbs", "-", last.crumbs, NAN);
     if (n == 0) goto cleanup;
+    BRC_TRY_OR(cleanup, add_parted(context, domain, n, breaks, fragment, volume, outcome));
     add_first(brc_simulation_scene(simulation), domain, n, breaks, outcome);
     add_early(brc_simulation_scene(simulation), domain, n, breaks, cracks.total_area, outcome);
     for (int c = 0; c < 3; ++c)

@@ -1,5 +1,7 @@
-/* Preconditioned conjugate gradients on the linearised operator, matrix-free on the device. */
+/* Preconditioned conjugate gradients on the linearised operator, or on the tangent of the full law where the state is,
+ * matrix-free on the device. */
 #include "statics_internal.h"
+#include <float.h>
 #include <math.h>
 
 /* kp = -K p. Displacements: the force of the linearised law. Rotations (dlsm-published, whose forces do not depend on
@@ -21,6 +23,37 @@ static brc_status apply(brc_simulation *s, brc_solve_vectors *v, bool rotations)
 brc_status brc_statics_apply(brc_simulation *s, brc_solve_vectors *v)
 {
     return apply(s, v, false);
+}
+
+/* kp = (f(u + h p) - f(u)) = -h K p of the full law about the present state u, whose force is in the simulation's own
+ * array: *per is 1/h. h p is a small share of u: the force is rounded to eps of what u pulls with, and the law bends by
+ * about the share. */
+static brc_status apply_tangent(brc_simulation *s, brc_solve_vectors *v, double *per)
+{
+    const double share = brc_device_get_precision(s->device) == BRC_DOUBLE ? 1e-6 : 1e-3;
+    const brc_unknowns state = {brc_displacement_of(s), NULL}, kept = {v->z.move, NULL}, way = {v->p.move, NULL};
+    double uu, pp;
+    BRC_TRY(brc_unknowns_dot(s, state, state, 1, &uu));
+    BRC_TRY(brc_unknowns_dot(s, way, way, 1, &pp));
+    const double h = pp > 0 && uu > 0 ? share * sqrt(uu / pp) : share;
+    if (v->p.turn) {
+        BRC_TRY(brc_buffer_fill_zero(v->z.turn));
+        BRC_TRY(brc_vector_axpy(s, 3 * s->layout->n_rows, h, v->p.turn, v->z.turn));
+        BRC_TRY(brc_buffer_copy(v->orientation, brc_orientation_of(s), brc_buffer_bytes(v->orientation)));
+        BRC_TRY(brc_vector_turn(s, v->z.turn, v->orientation));
+    }
+    BRC_TRY(brc_unknowns_copy(state, kept));
+    BRC_TRY(brc_unknowns_add(s, h, way, state));
+    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = state.move,
+                                                       .force = v->kp.move,
+                                                       .orientation = v->orientation,
+                                                       .torque = v->kp.turn,
+                                                       .finite = true,
+                                                       .t = brc_loads_time(s)}));
+    BRC_TRY(brc_unknowns_copy(kept, state));
+    BRC_TRY(brc_constrain(s, v->kp.move, v->kp.turn));
+    *per = 1 / h;
+    return brc_unknowns_add(s, -1, (brc_unknowns){brc_force_of(s), brc_torque_of(s)}, v->kp);
 }
 
 /* The direction of steepest descent, to begin or begin again. */
@@ -51,18 +84,23 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
     BRC_TRY(begin(s, v, rotations, &rz));
     BRC_TRY(brc_statics_square(s, v, v->r, &rr));
     first = sqrt(rr);
+    v->gives_way = false;
     for (int32_t i = 0; i < most && sqrt(rr) > target; ++i) {
         if (!(rz > 0) && v->preconditioner.multigrid && !rotations) { /* it must be positive */
             brc_preconditioner_give_up(s, v);
             BRC_TRY(begin(s, v, rotations, &rz));
         }
-        BRC_TRY(apply(s, v, rotations));
+        double per = 1;
+        BRC_TRY(v->tangent && !rotations ? apply_tangent(s, v, &per) : apply(s, v, rotations));
         BRC_TRY(brc_unknowns_dot(s, v->p, v->kp, 1, &pkp));
-        pkp = -pkp;            /* the force is minus K p */
-        if (!(pkp > 0)) break; /* only rounding and rigid motions are left */
+        pkp *= -per;      /* the force is minus K p */
+        if (!(pkp > 0)) { /* only rounding and rigid motions are left, or the body gives way */
+            v->gives_way = v->tangent;
+            break;
+        }
         const double alpha = rz / pkp;
         BRC_TRY(brc_unknowns_add(s, alpha, v->p, v->x));
-        BRC_TRY(brc_unknowns_add(s, alpha, v->kp, v->r));
+        BRC_TRY(brc_unknowns_add(s, alpha * per, v->kp, v->r));
         BRC_TRY(brc_preconditioner_apply(s, v, rotations));
         double next;
         BRC_TRY(brc_unknowns_dot(s, v->r, v->z, 1, &next));

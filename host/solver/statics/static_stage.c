@@ -55,13 +55,14 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
 }
 
 /* What a resumed stage needs beside the state: the displacements before the last increment, for the guess of the
- * next. */
+ * next, and how its solves go. */
 brc_status brc_statics_store_stage(brc_simulation *s, brc_state_store *store)
 {
     brc_static_run *run = s->statics->stage;
     if (!run) return BRC_OK;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
     BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
+    BRC_TRY(brc_store_flag(store, "static.tangent", &run->vectors.tangent));
     return brc_store_double(store, "static.reference", &run->reference);
 }
 

@@ -172,23 +172,52 @@ static brc_status settle(brc_simulation *s, brc_solve_vectors *v, brc_progress *
     return brc_vector_small_rotation(s, v->x.move, brc_orientation_of(s));
 }
 
+/* Corrections by the stiffness of the undeformed body come nearer by a constant factor, which is near 1 where slender
+ * parts are pressed or turned far (of a column under the share p of Euler's load it is p), and above 1 further on. Then
+ * the tangent of the law at the present state takes its place, for the rest of the stage: it costs an evaluation of the
+ * full law an iteration. Not near the tolerance, where rounding may be what is left; nor of bodies that supports leave
+ * free, whose motions as a whole are those of the undeformed one. */
+static bool wants_tangent(const brc_simulation *s, const brc_solve_vectors *v, int correction, double norm, double last)
+{
+    static const double slow = 0.3;
+    return s->model->statics->symmetric && !v->pieces.any && correction > 0 &&
+           norm > (correction == 1 ? 1 : slow) * last;
+}
+
+static const char *cure_of(const brc_solve_vectors *v)
+{
+    return v->gives_way ? "the body gives way there (it buckles, or snaps through): use smaller loads, or a dynamic "
+                          "stage with `mass_damping`"
+                        : "check that the loads balance or the supports hold every motion of the body, use more "
+                          "increments, or relax `tolerance`";
+}
+
 static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
 {
     const brc_stage *stage = brc_current_stage(s);
+    static const double of_tangent = 1e-3;       /* what a correction by the tangent leaves of a residual */
     static const double most_of_rounding = 1e-6; /* of the load; what is worse is no equilibrium, whatever the reason */
     const double tolerance = brc_statics_tolerance(s);
     const brc_model_statics *by = s->model->statics;
     const bool finite = stage->finite_strain && !by->linear;
     const bool coarse = brc_device_get_precision(s->device) != BRC_DOUBLE;
     change_of_law change = {0};
+    int since = 0; /* the correction that was the first by the present operator */
     double norm, left,
         last = INFINITY,
         earlier = INFINITY; /* slender beams: stretch and bending settle in turn, so two corrections count */
+    v->gives_way = false;
     BRC_TRY(brc_statics_residual(s, v, finite, &norm));
     if (norm > *reference) *reference = norm;
     for (int correction = 0; norm > tolerance * *reference; ++correction) {
-        if (correction == MOST_CORRECTIONS || (correction > 2 && norm > 0.9 * last && norm > 0.9 * earlier)) {
-            const bool near = norm < 100 * tolerance * *reference;
+        const bool near = norm < 100 * tolerance * *reference;
+        if (finite && !near && !v->tangent && wants_tangent(s, v, correction, norm, last)) {
+            brc_log(s->context, BRC_LOG_DEBUG, "stage '%s': from correction %d on by the tangent of the law",
+                    stage->name, correction + 1);
+            v->tangent = true;
+            since = correction;
+        }
+        if (correction == MOST_CORRECTIONS || (correction > 2 + since && norm > 0.9 * last && norm > 0.9 * earlier)) {
             bool done = coarse && near; /* the precision's own floor */
             if (!done && norm < most_of_rounding * *reference) BRC_TRY(is_rounding(s, v, norm, *reference, &done));
             if (done) break;
@@ -203,11 +232,8 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
             if (!near)
                 return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
                                 "stage '%s': no equilibrium at load factor %.4g: residual %.3g of the load after %d "
-                                "corrections, asked %.3g; "
-                                "check that the loads balance or the supports hold every motion of the body, use more "
-                                "increments, or "
-                                "relax `tolerance`",
-                                stage->name, brc_loads_time(s), norm / *reference, correction, tolerance);
+                                "corrections, asked %.3g; %s",
+                                stage->name, brc_loads_time(s), norm / *reference, correction, tolerance, cure_of(v));
             brc_preconditioner_give_up(s, v);
             last = norm = INFINITY;
         }
@@ -220,13 +246,15 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         if (by->symmetric) BRC_TRY(brc_statics_project_free_motions(s, v, v->r));
         const int32_t most = brc_statics_most_iterations(s);
         BRC_TRY(brc_preconditioner_prepare(s, v));
-        const double worth = finite && v->preconditioner.multigrid ? worthwhile(correction, &change) : 0,
+        const double worth = v->tangent                              ? of_tangent
+                             : finite && v->preconditioner.multigrid ? worthwhile(correction, &change)
+                                                                     : 0,
                      target = fmax(0.3 * tolerance * *reference, worth * norm);
         BRC_TRY(by->symmetric ? brc_conjugate_gradients(s, v, false, target, most, progress, &left)
                               : brc_gmres(s, v, target, most, progress, &left));
         BRC_TRY(correct(s, v, finite));
         BRC_TRY(brc_statics_residual(s, v, finite, &norm));
-        if (finite && v->preconditioner.multigrid) BRC_TRY(note_change(s, v, last, &change));
+        if (finite && v->preconditioner.multigrid && !v->tangent) BRC_TRY(note_change(s, v, last, &change));
         s->statics->report.corrections += 1;
         if (brc_simulation_stopped_early(s)) break;
     }

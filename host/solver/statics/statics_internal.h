@@ -38,6 +38,8 @@ typedef struct brc_solve_vectors {
     int state_bytes;
     brc_pieces pieces; /* empty where nothing is free to move as a whole */
     double arm;        /* a torque over this counts as a force: mean radius of the spheres [m] */
+    bool tangent;      /* K is that of the full law about the present state; else of the law about the undeformed one */
+    bool gives_way;    /* the last solve came upon a motion that this tangent does not hold back */
 } brc_solve_vectors;
 
 /* What a part keeps from solve to solve. */

@@ -223,6 +223,80 @@ static void published_tension_is_near_the_given_values(void **state)
     close_case(&c);
 }
 
+/* Mean displacement of the wall x+ of a bar of 20:1, four cells across, clamped at x-; status: of the run. */
+static brc_status bend_bar(int increments, brc_precision precision, double along, double across, double tip[3],
+                           char *message, size_t room)
+{
+    char stages[400];
+    bench_case c;
+    snprintf(
+        stages, sizeof stages,
+        "  - name: bend\n    solver: {static: {increments: %d}}\n    loads:\n"
+        "      - face_displacement: {set: x-, x: 0, y: 0, z: 0}\n      - traction: {set: x+, x: %.17g Pa, z: %.17g "
+        "Pa}\n",
+        increments, along, across);
+    open_case(&c, (case_options){.shape = "{box: {size: [20 m, 1 m, 1 m]}}",
+                                 .fill = "cells: [80, 4, 4], spread: 50 %, lloyd: 5, seed: 1",
+                                 .precision = precision,
+                                 .stages = stages});
+    const brc_status status = brc_simulation_run(c.simulation);
+    snprintf(message, room, "%s", brc_context_message(c.context));
+    const brc_set *end = c.domain->sets + set_index(&c, "x+");
+    double *u = calloc((size_t)(3 * end->n_members), sizeof *u), area = 0;
+    assert_done(&c, brc_simulation_face_displacement(c.simulation, end->n_members, end->members, u));
+    tip[0] = tip[1] = tip[2] = 0;
+    for (int64_t m = 0; m < end->n_members; ++m) {
+        const double s = c.domain->free_area_vector[3 * (int64_t)end->members[m]];
+        area += s;
+        for (int k = 0; k < 3; ++k)
+            tip[k] += s * u[3 * m + k];
+    }
+    for (int k = 0; k < 3; ++k)
+        tip[k] /= area;
+    free(u);
+    close_case(&c);
+    return status;
+}
+
+/* Slender bars pressed and turned far, against the elastica of the bending stiffness that the bar has under a small
+ * load. What it leaves out: shear (P / kAG is 0.1 % of Euler's load here, so 0.6 % of the deflection at 0.83 of it),
+ * the clamp that holds the width too, and the bar's own strain. */
+static void slender_bars_bend_as_the_elastica(void **state)
+{
+    (void)state;
+    enum { LENGTH = 20 };
+    const double force = 1e-9, euler = M_PI * M_PI / 12 / (4 * LENGTH * LENGTH);
+    const struct {
+        int increments;
+        brc_precision precision;
+        double along, across; /* over Euler's load and over E I / length^2 */
+        double most;
+    } cases[] = {{4, BRC_DOUBLE, -0.8, 1e-3, 0.02}, {1, BRC_DOUBLE, -0.9, 1e-3, 0.04}, {4, BRC_MIXED, -0.8, 1e-3, 0.02},
+                 {4, BRC_DOUBLE, 0, 2, 0.01},       {1, BRC_DOUBLE, 0, 4, 0.01},      {2, BRC_DOUBLE, 0.8, 5, 0.01}};
+    char said[400];
+    double small[3], tip[3], exact[2];
+    assert_int_equal(bend_bar(1, BRC_DOUBLE, 0, force, small, said, sizeof said), BRC_OK);
+    const double stiffness = force * pow(LENGTH, 3) / (3 * small[2]);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        const double along = cases[k].along * euler, across = cases[k].across / 12 / (LENGTH * LENGTH);
+        if (bend_bar(cases[k].increments, cases[k].precision, along, across, tip, said, sizeof said) != BRC_OK)
+            fail_msg("case %zu: %s", k, said);
+        elastica_tip(stiffness, LENGTH, along, across, exact);
+        if (!(fabs(tip[2] / exact[1] - 1) < cases[k].most))
+            fail_msg("case %zu: %g across, elastica %g (%+.4f)", k, tip[2], exact[1], tip[2] / exact[1] - 1);
+    }
+}
+
+static void a_bar_that_buckles_is_refused(void **state)
+{
+    (void)state;
+    char said[400];
+    double tip[3];
+    const double euler = M_PI * M_PI / 12 / 1600;
+    assert_int_equal(bend_bar(2, BRC_DOUBLE, -1.2 * euler, 1e-6, tip, said, sizeof said), BRC_PHYSICS_STOPPED);
+    if (!strstr(said, "the body gives way there (it buckles, or snaps through)")) fail_msg("%s", said);
+}
+
 static void loads_that_do_not_balance_are_refused(void **state)
 {
     (void)state;
@@ -331,6 +405,8 @@ int main(void)
         cmocka_unit_test(uniform_traction_gives_uniform_strain),
         cmocka_unit_test(two_materials_in_series_carry_one_stress),
         cmocka_unit_test(published_tension_is_near_the_given_values),
+        cmocka_unit_test(slender_bars_bend_as_the_elastica),
+        cmocka_unit_test(a_bar_that_buckles_is_refused),
         cmocka_unit_test(loads_that_do_not_balance_are_refused),
         cmocka_unit_test(overlapping_components_are_refused),
         cmocka_unit_test(cube_modes_are_near_the_exact_ones),

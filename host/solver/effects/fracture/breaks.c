@@ -219,12 +219,9 @@ static int32_t root_of(int32_t *parent, int32_t e)
     return e;
 }
 
-brc_status brc_simulation_fragments(brc_simulation *s, int32_t *fragment, int64_t *n_fragments)
+int64_t brc_fragments_over(const brc_domain *d, const uint8_t *whole, int32_t *fragment)
 {
-    const brc_domain *d = s->domain;
-    uint8_t *whole = NULL;
-    BRC_TRY(refuse(s));
-    BRC_TRY(brc_fracture_whole(s, &whole));
+    int64_t n = 0;
     for (int32_t e = 0; e < d->n_elements; ++e)
         fragment[e] = e;
     for (int64_t b = 0; b < d->n_bonds; ++b) {
@@ -236,11 +233,19 @@ brc_status brc_simulation_fragments(brc_simulation *s, int32_t *fragment, int64_
         else
             fragment[i] = j;
     }
-    brc_memory_free(whole);
     for (int32_t e = 0; e < d->n_elements; ++e)
         fragment[e] = root_of(fragment, e);
-    *n_fragments = 0;
     for (int32_t e = 0; e < d->n_elements; ++e) /* roots come before their members */
-        fragment[e] = fragment[e] == e ? (int32_t)(*n_fragments)++ : fragment[fragment[e]];
+        fragment[e] = fragment[e] == e ? (int32_t)n++ : fragment[fragment[e]];
+    return n;
+}
+
+brc_status brc_simulation_fragments(brc_simulation *s, int32_t *fragment, int64_t *n_fragments)
+{
+    uint8_t *whole = NULL;
+    BRC_TRY(refuse(s));
+    BRC_TRY(brc_fracture_whole(s, &whole));
+    *n_fragments = brc_fragments_over(s->domain, whole, fragment);
+    brc_memory_free(whole);
     return BRC_OK;
 }

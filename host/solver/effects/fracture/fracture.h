@@ -40,6 +40,9 @@ brc_status brc_simulation_damage(brc_simulation *simulation, double *out);
 /* Number of the fragment of every element [n_elements], counted from 0 in the order of the lowest element id of each;
  * elements hang together over unbroken bonds. */
 brc_status brc_simulation_fragments(brc_simulation *simulation, int32_t *fragment, int64_t *n_fragments);
+/* The same of bonds that are unbroken where whole is not 0 [n_half_edges], read on the side that bond_half_edge names:
+ * fragment [n_elements] and how many there are. */
+int64_t brc_fragments_over(const brc_domain *domain, const uint8_t *whole, int32_t *fragment);
 /* Half-edges of the domain whose bonds are unbroken [n_half_edges] (1, else 0); *out is the caller's (brc_memory_free),
  * NULL without fracture. */
 brc_status brc_simulation_whole(brc_simulation *simulation, uint8_t **out);

@@ -140,6 +140,33 @@ static void a_chain_twists_and_stretches_as_a_rod(void **state)
     }
 }
 
+/* Ten chords of the elastica, each straight under its own share of the push: of a column of n the critical load is
+ * 1 - (pi / 2 n)^2 / 12 of Euler's or so, 0.2 %, which is 1 % of the deflection at 0.8 of it. */
+static void a_pressed_chain_bends_as_the_elastica(void **state)
+{
+    (void)state;
+    enum { N = 10 };
+    const double side[3] = {AXIS[1] * ACROSS[2] - AXIS[2] * ACROSS[1], AXIS[2] * ACROSS[0] - AXIS[0] * ACROSS[2],
+                            AXIS[0] * ACROSS[1] - AXIS[1] * ACROSS[0]};
+    const double euler = M_PI * M_PI * YOUNG * bending() / (4 * N * N), unit = YOUNG * bending() / (N * N);
+    const double cases[][2] = {{-0.8, 0.01}, {0, 2}, {-0.5, 0.5}}; /* over Euler's load; over E I / length^2 */
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        const double along = cases[k][0] * euler, across = cases[k][1] * unit;
+        char loads[400];
+        beams_case c;
+        double move, turn, exact[2];
+        snprintf(loads, sizeof loads, "      - element_force: {set: tip, x: %.17g N, y: %.17g N, z: %.17g N}\n",
+                 along * AXIS[0] + across * ACROSS[0], along * AXIS[1] + across * ACROSS[1],
+                 along * AXIS[2] + across * ACROSS[2]);
+        open_chain(&c, N, loads);
+        tip_of(&c, N, ACROSS, side, &move, &turn);
+        elastica_tip(YOUNG * bending(), N, along, across, exact);
+        if (!(fabs(move / exact[1] - 1) < 0.015))
+            fail_msg("case %zu: %g across, elastica %g (%+.4f)", k, move, exact[1], move / exact[1] - 1);
+        close_beams(&c);
+    }
+}
+
 /* ---- a free lattice in motion ---- */
 
 /* Momentum and angular momentum about the origin; scale: sums of magnitudes. */
@@ -454,6 +481,7 @@ int main(void)
         cmocka_unit_test(a_chain_bends_as_a_cantilever),
         cmocka_unit_test(a_chain_bends_between_guides),
         cmocka_unit_test(a_chain_twists_and_stretches_as_a_rod),
+        cmocka_unit_test(a_pressed_chain_bends_as_the_elastica),
         cmocka_unit_test(momentum_and_angular_momentum_stay),
         cmocka_unit_test(the_ledger_closes_with_pushed_and_turned_elements),
         cmocka_unit_test(the_node_bound_is_below_the_critical_step),
