@@ -272,7 +272,7 @@ static void slender_bars_bend_as_the_elastica(void **state)
         double along, across; /* over Euler's load and over E I / length^2 */
         double most;
     } cases[] = {{4, BRC_DOUBLE, -0.8, 1e-3, 0.02}, {1, BRC_DOUBLE, -0.9, 1e-3, 0.04}, {4, BRC_MIXED, -0.8, 1e-3, 0.02},
-                 {4, BRC_DOUBLE, 0, 2, 0.01},       {1, BRC_DOUBLE, 0, 4, 0.01},      {2, BRC_DOUBLE, 0.8, 5, 0.01}};
+                 {4, BRC_DOUBLE, 0, 2, 0.01},       {1, BRC_DOUBLE, 0, 4, 0.01},       {2, BRC_DOUBLE, 0.8, 5, 0.01}};
     char said[400];
     double small[3], tip[3], exact[2];
     assert_int_equal(bend_bar(1, BRC_DOUBLE, 0, force, small, said, sizeof said), BRC_OK);
