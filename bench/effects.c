@@ -19,6 +19,7 @@ enum {
     N_TRIALS = 3,
     WARM_STEPS = 3,
     AGAIN_STEPS = 1,
+    MOST_STEPS = 1000, /* of a sample: in all rounds fewer than dlsm-published takes to run away (13 000) */
     GUARD_LOOKS = 50
 };
 /* Strength of a bond whose factor is 1, where bonds are to break [Pa]. */
@@ -257,7 +258,7 @@ static brc_status alternate(const brc_effects_request *r, const effect *const *w
     int64_t before[MOST_VARIANTS], after;
     BRC_TRY(time_steps(r, base->simulation, WARM_STEPS, &seconds));
     BRC_TRY(time_steps(r, base->simulation, WARM_STEPS, &seconds));
-    base->n_steps = (int64_t)fmax(1, ceil(r->sample_s * WARM_STEPS / seconds));
+    base->n_steps = (int64_t)fmin(MOST_STEPS, fmax(1, ceil(r->sample_s * WARM_STEPS / seconds)));
     for (int k = 0; k < n; ++k) {
         BRC_TRY(time_steps(r, v[k].simulation, WARM_STEPS, &seconds)); /* kernels are built, pages touched */
         v[k].n_steps = base->n_steps < which[k]->most_steps ? base->n_steps : which[k]->most_steps;
