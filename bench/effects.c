@@ -27,7 +27,7 @@ static const double strength = 1e8;
 /* Share of the bonds that break in a trial step. */
 static const double trial_rate = 1e-3;
 
-/* An effect. rate: share of the bonds that break, or faces that open, in each step; bound: of the issue, over the
+/* An effect. rate: share of the bonds that break, or faces that open, in each step; bound: asked for, over the
  * elastic step, 0: none. */
 typedef struct effect {
     const char *name;

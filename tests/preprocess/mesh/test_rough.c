@@ -65,7 +65,7 @@ static const rough *case_of(const char *name)
     abort();
 }
 
-/* The issue's bound at 10 000 cells, for a surface that stands off its mean by up to a fifth of a cell; closure and
+/* The asked bound at 10 000 cells, for a surface that stands off its mean by up to a fifth of a cell; closure and
  * twins as of any domain. */
 static void rough_surfaces_are_met_to_half_a_percent(void **state)
 {

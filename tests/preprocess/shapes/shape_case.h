@@ -5,7 +5,7 @@
 #include "../shapes.h"
 #include "../support.h"
 
-/* Tangent planes miss a curved wall by second order: the bound of 0.5 % at 10 000 cells, carried to n cells. */
+/* Tangent planes miss a curved wall by second order: the asked bound of 0.5 % at 10 000 cells, carried to n cells. */
 static inline double curved_bound(int64_t n)
 {
     return 0.005 * pow(1e4 / (double)n, 2.0 / 3.0);

@@ -59,7 +59,7 @@ static void curved_walls_by_mirror_images_are_met_to_second_order(void **state)
             off[level] = fabs(d->quality.volume_cells / room.volume - 1.0);
             brc_domain_free(&d);
         }
-        assert_true(off[1] < 0.005); /* the bound at 10 000 cells */
+        assert_true(off[1] < 0.005); /* the asked bound at 10 000 cells */
         /* second order is a factor of 4; a third of it is left to the chance of where seeds lie, and nothing is asked
          * below the accuracy of measured volumes */
         if (!(off[1] < off[0] * 0.375 || off[1] < 1e-5))

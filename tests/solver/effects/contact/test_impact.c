@@ -68,8 +68,7 @@ static void a_body_of_beams_gives_the_wall_the_momentum_it_loses(void **state)
     assert_true(b.after[0] * b.after[0] + b.after[2] * b.after[2] <
                 b.before[0] * b.before[0] + b.before[2] * b.before[2]);
     assert_true(b.after[0] < b.before[0]); /* friction held it */
-    assert_true(fabs(b.closure) <
-                1e-2); /* at 0.4 of the critical step: that of the bound for fracture at 0.35 */
+    assert_true(fabs(b.closure) < 1e-2); /* at 0.4 of the critical step: that of the asked bound for fracture at 0.35 */
 }
 
 /* A step with breaks ends with one force and the next begins with another, of surfaces that are new: what is read
@@ -88,7 +87,7 @@ static void a_body_of_beams_that_breaks_does_so_too(void **state)
     assert_true(b.broken > 20);
     for (int k = 0; k < 3; ++k)
         assert_true(fabs(b.before[k] - b.after[k] - b.impulse[k]) < 1e-2 * fabs(b.before[2]));
-    assert_true(fabs(b.closure) < 5e-2); /* the bound for fracture */
+    assert_true(fabs(b.closure) < 5e-2); /* the asked bound for fracture */
 }
 
 /* A free slab breaks a cube that lies on nothing: all that the one loses the other has, step by step through the

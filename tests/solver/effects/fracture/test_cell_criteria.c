@@ -298,7 +298,7 @@ static void what_never_breaks_moves_as_without_fracture(void **state)
     close_case(&plain), close_case(&with);
 }
 
-/* Through the breaking of a third of the bonds; the bound at 0.35. */
+/* Through the breaking of a third of the bonds; the asked bound at 0.35. */
 static void the_ledger_closes_through_failing_elements(void **state)
 {
     (void)state;

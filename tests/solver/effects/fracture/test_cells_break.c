@@ -75,7 +75,7 @@ static void regular_cells_break_at_exactly_the_strength(void **state)
     close_case(&c);
 }
 
-/* The half percent; the load grows by 0.2 % of the strength a step. */
+/* The asked half percent; the load grows by 0.2 % of the strength a step. */
 static void random_cells_start_to_break_within_half_a_percent_of_the_strength(void **state)
 {
     (void)state;
@@ -345,7 +345,7 @@ static closure closure_of_bar(double safety, const char *fracture, const char *r
 
 /* Of breaks alone: sides that meet are kinks of the force, whose errors are their own (test_closed_faces.c). */
 #define FREE_SIDES "fracture: {criterion: bond-normal, closure: false}\n"
-static const double bar_safety[] = {0.8, 0.35}, bar_bound[] = {0.05, 0.01}; /* the issue's */
+static const double bar_safety[] = {0.8, 0.35}, bar_bound[] = {0.05, 0.01}; /* asked */
 
 /* A bar pulled apart: a third of its bonds go. */
 static void the_ledger_of_a_bar_closes_through_its_fracture(void **state)

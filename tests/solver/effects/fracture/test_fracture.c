@@ -229,7 +229,7 @@ static double closure_at(double safety, double duration, int64_t *count)
     return ledger.closure;
 }
 
-/* Issue: 5 % at 0.8 and 1 % at 0.35 of the critical step, second order. Different steps break different bonds at
+/* Asked: 5 % at 0.8 and 1 % at 0.35 of the critical step, second order. Different steps break different bonds at
  * different moments, so the order shows in the whole, not in the last digit: from 0.8 to 0.2 the error falls sixteen
  * times, and at least eight times is asked. */
 static void the_ledger_closes_through_breaking_to_second_order(void **state)

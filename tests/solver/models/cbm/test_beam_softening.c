@@ -263,7 +263,7 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
     close_case(&c);
 }
 
-/* The bounds, all along the fracture of a cube that a burst tears. */
+/* The asked bounds, all along the fracture of a cube that a burst tears. */
 static void the_ledger_closes_through_fracture_with_softening(void **state)
 {
     (void)state;

@@ -66,7 +66,7 @@ static void a_flat_crack_costs_its_fracture_energy(void **state)
     }
 }
 
-/* A zig-zag crack costs by its projection: cells of a 90 % noisy grid along a weak plane. The ten percent. */
+/* A zig-zag crack costs by its projection: cells of a 90 % noisy grid along a weak plane. The asked ten percent. */
 static void a_rough_crack_costs_its_fracture_energy_by_its_projection(void **state)
 {
     (void)state;
@@ -249,7 +249,7 @@ static void an_open_plane_does_not_disturb_a_uniform_state(void **state)
 
 /* ---- energy and momentum ---- */
 
-/* The issue's bounds, through the fracture of a bar; and a quarter of the step leaves less than a quarter of the
+/* The asked bounds, through the fracture of a bar; and a quarter of the step leaves less than a quarter of the
  * error. */
 static void the_ledger_closes_through_fracture_with_softening(void **state)
 {
