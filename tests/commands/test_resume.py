@@ -50,6 +50,8 @@ SHORT = {
 MORE = {
     "ball-breaks+softening": ["materials.plaster.strength.fracture_energy=20 J/m^2"],
     "cantilever+column": ["bodies.0.fill.noisy_grid.cells=[40, 4, 4]", "stages.0.solver={static: {increments: 6}}", "stages.0.loads.1.traction.x=-32 MPa"],
+    "twisted-bar+far": ["bodies.0.fill.noisy_grid.cells=[40, 4, 4]", "stages.0.solver={static: {increments: 2}}",
+                        "stages.0.loads.1.face_displacement.gradient={y: [0, -0.5, -0.8660254], z: [0, 0.8660254, -0.5]}"],
     "beams-fracture+softening": ["materials.glass.strength.fracture_energy=10 J/m^2"],
 }
 SINGLE = {"tension": ["stages.0.solver.static.tolerance=1e-4"]}  # what a lower precision cannot reach otherwise
@@ -303,7 +305,7 @@ def few():
     opencl = [device for device in there if device.startswith("opencl")][:1]
     cases = [lambda f: goes_on("beams-fracture", f, "cpu", "mixed"), lambda f: goes_on("cells-events", f, "cpu", "double"),
              lambda f: goes_on("two-models", f, "cpu", "single"), lambda f: goes_on("tension", f, "cpu", "double"),
-             lambda f: goes_on("cantilever+column", f, "cpu", "double"),
+             lambda f: goes_on("cantilever+column", f, "cpu", "double"), lambda f: goes_on("twisted-bar+far", f, "cpu", "double"),
              lambda f: killed_again_and_again(f, 5), ends_by_a_signal, is_refused_with_reason]
     cases += [lambda f, d=d: goes_on("tension-dynamic", f, d, "double") for d in opencl]
     for case in cases:

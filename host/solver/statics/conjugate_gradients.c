@@ -84,7 +84,6 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
     BRC_TRY(begin(s, v, rotations, &rz));
     BRC_TRY(brc_statics_square(s, v, v->r, &rr));
     first = sqrt(rr);
-    v->gives_way = false;
     for (int32_t i = 0; i < most && sqrt(rr) > target; ++i) {
         if (!(rz > 0) && v->preconditioner.multigrid && !rotations) { /* it must be positive */
             brc_preconditioner_give_up(s, v);
@@ -95,7 +94,7 @@ brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool
         BRC_TRY(brc_unknowns_dot(s, v->p, v->kp, 1, &pkp));
         pkp *= -per;      /* the force is minus K p */
         if (!(pkp > 0)) { /* only rounding and rigid motions are left, or the body gives way */
-            v->gives_way = v->tangent;
+            v->gives_way |= v->tangent;
             break;
         }
         const double alpha = rz / pkp;

@@ -30,6 +30,7 @@ static const brc_field_row rows[] = {
     BRC_FIELD(zero, brc_each_row, 3, STATE, settles_rotations, "static solver", "-"),
     BRC_FIELD(orientation, brc_each_row, 4, STATE, brc_wants_turning, "static solver", "-"),
     BRC_FIELD(theta, brc_each_row, 3, STATE, solves_rotations, "static solver", "rad"),
+    BRC_FIELD(kept, brc_each_row, 4, STATE, solves_rotations, "static solver", "-"),
     {"block", brc_each_row, 6, BRC_FIELD_STATE, solves_moves, AT(preconditioner.blocks), "preconditioner", "-",
      BRC_NOT_KEPT},
     {"block", brc_each_row, 21, BRC_FIELD_STATE, solves_rotations, AT(preconditioner.blocks), "preconditioner", "-",

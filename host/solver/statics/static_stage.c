@@ -4,19 +4,59 @@
 #include "static_events.h"
 #include <math.h>
 
-/* Start from the last increment's move again: exact when the answer is proportional to the load, so that a stage of
- * equal increments costs little more than one. v->before holds the displacement before the last increment on entry,
- * before this one on return. */
-static brc_status predict(brc_simulation *s, brc_solve_vectors *v, int32_t increment)
+/* Start from the last move again, `share` times as far: exact when the answer is proportional to the load, so that a
+ * stage of equal increments costs little more than one. v->before holds the displacement before the last move on entry,
+ * before this one on return. share: 0: no move before. */
+static brc_status predict(brc_simulation *s, brc_solve_vectors *v, double share)
 {
     const int64_t bytes = 3 * (int64_t)s->layout->n_rows * v->state_bytes;
     const brc_unknowns state = {brc_displacement_of(s), NULL};
-    if (increment == 1 || brc_solves_rotations(s->model))
+    if (v->kept) BRC_TRY(brc_buffer_copy(v->kept, brc_orientation_of(s), brc_buffer_bytes(v->kept)));
+    if (!(share > 0) || brc_solves_rotations(s->model))
         return brc_buffer_copy(v->before, brc_displacement_of(s), bytes);
-    BRC_TRY(brc_buffer_copy(v->z.move, brc_displacement_of(s), bytes)); /* u becomes 2 u - before */
+    BRC_TRY(brc_buffer_copy(v->z.move, brc_displacement_of(s), bytes)); /* u becomes u + share (u - before) */
     BRC_TRY(brc_unknowns_add(s, -1, (brc_unknowns){v->before, NULL}, state));
-    BRC_TRY(brc_unknowns_add(s, 1, v->z, state));
+    BRC_TRY(brc_unknowns_scale_add(s, (brc_unknowns){v->z.move, NULL}, share, state));
     return brc_buffer_copy(v->before, v->z.move, bytes);
+}
+
+/* Back to the state that was predicted from. */
+static brc_status go_back(brc_simulation *s, brc_solve_vectors *v)
+{
+    BRC_TRY(brc_buffer_copy(brc_displacement_of(s), v->before, brc_buffer_bytes(v->before)));
+    return v->kept ? brc_buffer_copy(brc_orientation_of(s), v->kept, brc_buffer_bytes(v->kept)) : BRC_OK;
+}
+
+/* Equilibrium at the load factor `to`, from that at `from`. Where none is found though the tangent was asked, the way
+ * is gone in parts, each half of one that failed, down to a 64th of it. An increment that took parts leaves no move to
+ * go on from. */
+static brc_status reach(brc_simulation *s, brc_static_run *run, double from, double to, bool moved,
+                        brc_progress *progress)
+{
+    enum { MOST_PARTS = 64 };
+    brc_solve_vectors *v = &run->vectors;
+    double at = from, part = to - from, last = moved ? part : 0;
+    bool in_parts = false;
+    for (;;) {
+        const bool is_last = at + 1.000001 * part >= to;
+        const double reference = run->reference;
+        brc_clock_set_load(s, is_last ? to : at + part);
+        BRC_TRY(predict(s, v, last > 0 ? part / last : 0));
+        const brc_status status = brc_statics_solve_at(s, run, progress);
+        if (status == BRC_OK && (is_last || brc_simulation_stopped_early(s))) break;
+        if (status == BRC_OK) {
+            at += part, last = part;
+            continue;
+        }
+        if (status != BRC_PHYSICS_STOPPED || !v->tangent || part * MOST_PARTS < 1.5 * (to - from)) return status;
+        brc_context_clear(s->context);
+        brc_log(s->context, BRC_LOG_INFO, "stage '%s': no equilibrium at load factor %.6g at once; in smaller parts",
+                brc_current_stage(s)->name, is_last ? to : at + part);
+        BRC_TRY(go_back(s, v));
+        run->reference = reference;
+        part /= 2, last = 0, in_parts = true;
+    }
+    return in_parts ? brc_buffer_copy(v->before, brc_displacement_of(s), brc_buffer_bytes(v->before)) : BRC_OK;
 }
 
 /* Scale the load so that the worst element of all parts is at the asked fraction of its limit: in proportion, and again
@@ -106,9 +146,7 @@ static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_sta
     const int32_t increments = stage->increments > 0 ? stage->increments : 1;
     for (int32_t i = (int32_t)brc_simulation_step(part[0]) + 1; i <= increments && !brc_stage_has_ended(part[0]); ++i) {
         for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
-            brc_clock_set_load(part[k], (double)i / increments);
-            BRC_TRY(predict(part[k], &run[k].vectors, i));
-            BRC_TRY(brc_statics_solve_at(part[k], &run[k], progress));
+            BRC_TRY(reach(part[k], &run[k], (double)(i - 1) / increments, (double)i / increments, i > 1, progress));
             brc_clock_set_step(part[k], i);
         }
         BRC_TRY(brc_look_here(part[0], i - 1));

@@ -192,6 +192,28 @@ static const char *cure_of(const brc_solve_vectors *v)
                           "increments, or relax `tolerance`";
 }
 
+/* The tangent may lead to a state that balances with cells turned inside out, which no solid is. */
+static brc_status refuse_inverted(brc_simulation *s, brc_solve_vectors *v)
+{
+    const int64_t n = s->domain->n_elements;
+    int64_t n_inverted = 0;
+    if (!v->tangent || !brc_gradient_of(s)) return BRC_OK;
+    BRC_LOCAL(s->context, 9 * n, double, h, "gradients");
+    BRC_TRY(brc_coeff_from_rows(s, brc_gradient_of(s), h, 9));
+    for (int64_t e = 0; e < n; ++e) {
+        double *f = h + 9 * e;
+        f[0] += 1, f[4] += 1, f[8] += 1;
+        const double volume = f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
+                              f[2] * (f[3] * f[7] - f[4] * f[6]);
+        n_inverted += !(volume > 0);
+    }
+    if (n_inverted == 0) return BRC_OK;
+    v->gives_way = true;
+    return BRC_FAIL(s->context, BRC_PHYSICS_STOPPED,
+                    "stage '%s': at load factor %.4g %lld cells are turned inside out; %s", brc_current_stage(s)->name,
+                    brc_loads_time(s), (long long)n_inverted, cure_of(v));
+}
+
 static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, double *reference, brc_progress *progress)
 {
     const brc_stage *stage = brc_current_stage(s);
@@ -217,7 +239,8 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
             v->tangent = true;
             since = correction;
         }
-        if (correction == MOST_CORRECTIONS || (correction > 2 + since && norm > 0.9 * last && norm > 0.9 * earlier)) {
+        if (correction == MOST_CORRECTIONS ||
+            (correction > (v->tangent ? 8 : 2) + since && norm > 0.9 * last && norm > 0.9 * earlier)) {
             bool done = coarse && near; /* the precision's own floor */
             if (!done && norm < most_of_rounding * *reference) BRC_TRY(is_rounding(s, v, norm, *reference, &done));
             if (done) break;
@@ -259,6 +282,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         if (brc_simulation_stopped_early(s)) break;
     }
     s->statics->report.residual = *reference > 0 ? norm / *reference : 0;
+    BRC_TRY(refuse_inverted(s, v));
     return by->torques ? settle(s, v, progress) : BRC_OK;
 }
 

@@ -29,17 +29,17 @@ typedef struct brc_preconditioner {
 } brc_preconditioner;
 
 /* Device vectors of a linear solve K x = r; zero only for dlsm-published, orientation for models with rotations, theta
- * for cbm. */
+ * and kept, the orientations before the last move, for cbm. */
 typedef struct brc_solve_vectors {
     brc_unknowns x, r, z, p, kp;
     brc_buffer *before;
     brc_preconditioner preconditioner;
-    brc_buffer *zero, *orientation, *theta;
+    brc_buffer *zero, *orientation, *theta, *kept;
     int state_bytes;
     brc_pieces pieces; /* empty where nothing is free to move as a whole */
     double arm;        /* a torque over this counts as a force: mean radius of the spheres [m] */
     bool tangent;      /* K is that of the full law about the present state; else of the law about the undeformed one */
-    bool gives_way;    /* the last solve came upon a motion that this tangent does not hold back */
+    bool gives_way;    /* solves at this load came upon a motion that the tangent does not hold back */
 } brc_solve_vectors;
 
 /* What a part keeps from solve to solve. */
