@@ -15,6 +15,7 @@
 #define ELSEWHERE ((size_t)1)
 #define SPILLED ((size_t)2)
 #define MAPPED ((size_t)3)
+#define SPARSE ((size_t)4)
 /* From here on a block has pages of its own, which are there once they are written. */
 #define LEAST_MAPPED ((size_t)4 << 20)
 
@@ -93,6 +94,23 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size
     return BRC_OK;
 }
 
+brc_status brc_memory_allocate_sparse(brc_context *context, void **out, int64_t n, size_t size, const char *what)
+{
+    const size_t bytes = rounded_bytes(n, size);
+    void *const memory = bytes == 0 ? MAP_FAILED
+                                    : mmap(NULL, bytes + ALIGNMENT, PROT_READ | PROT_WRITE,
+                                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    *out = NULL;
+    if (memory == MAP_FAILED)
+        return BRC_FAIL(context, BRC_NO_MEMORY, "%s: no addresses for %lld items of %zu bytes; use fewer elements", what,
+                        (long long)n, size);
+    (void)madvise(memory, bytes + ALIGNMENT, MADV_NOHUGEPAGE); /* a large page would come whole */
+    *out = (char *)memory + ALIGNMENT;
+    size_of(*out)[0] = bytes;
+    size_of(*out)[1] = SPARSE;
+    return BRC_OK;
+}
+
 brc_status brc_memory_resize(brc_context *context, void **block, int64_t n, size_t size, const char *what)
 {
     void *fresh = NULL;
@@ -127,6 +145,10 @@ void brc_memory_free(void *block)
     if (!block) return;
     size_t *const size = size_of(block);
     if (size[1] == ELSEWHERE) return;
+    if (size[1] == SPARSE) {
+        (void)munmap(size, *size + ALIGNMENT);
+        return;
+    }
     count(-(int64_t)*size);
     if (size[1] == SPILLED)
         brc_spill_give((char *)size, *size + ALIGNMENT);

@@ -4,17 +4,33 @@
 #include "../../preprocess/domain/domain_ranks.h"
 #include "../base/memory.h"
 #include "../base/ranks.h"
+#include "../base/spill.h"
+#include "../output/checkpoint/checkpoint_identity.h"
 #include "../device/device_list.h"
 #include "../solver/laws/beam_polish.h"
 #include <math.h>
 #include <omp.h>
 #include <string.h>
 
+/* Machines have a domain between them where nothing on the way asks for corners and faces of all cells: contact has
+ * polyhedra, statics levels, and both are made by all ranks alike. */
+static brc_together way_of(const brc_split *split)
+{
+    const brc_scene *scene = split->scene;
+    bool apart = split->n == 1 && scene->n_bodies == 1 && !scene->has_contact && scene->n_strikers == 0 &&
+                 !brc_spill_folder();
+    for (int32_t k = 0; k < scene->n_stages; ++k)
+        apart = apart && scene->stages[k].solver == BRC_SOLVER_DYNAMIC;
+    return brc_ranks_count() == 1 ? BRC_ALONE : apart ? BRC_APART : BRC_TOGETHER;
+}
+
 /* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells. */
 static brc_status build_among_firsts(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
 {
     brc_ranks_narrow();
-    const brc_status status = brc_split_domains_build(context, split, n_threads, brc_ranks_count() > 1, out);
+    brc_status status = brc_split_domains_build(context, split, n_threads, way_of(split), out);
+    for (int32_t k = 0; status == BRC_OK && k < split->n; ++k)
+        status = brc_checkpoint_sum_areas(context, out[k]);
     brc_ranks_widen();
     return status;
 }
@@ -25,14 +41,14 @@ static brc_status build(brc_context *context, const brc_split *split, int n_thre
     const brc_ranks_place here = brc_ranks_here();
     const int each = n_threads > 0 ? n_threads : omp_get_max_threads();
     bool shared = here.count > 1;
-    if (!shared) return brc_split_domains_build(context, split, n_threads, false, out);
+    if (!shared) return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
     if (here.local == 0) BRC_TRY(build_among_firsts(context, split, each * here.local_count, out));
     for (int32_t k = 0; shared && k < split->n; ++k)
         BRC_TRY(brc_domain_share(context, &out[k], &shared));
     if (shared || here.local == 0) return BRC_OK;
     for (int32_t k = 0; k < split->n; ++k)
         brc_domain_free(&out[k]);
-    return brc_split_domains_build(context, split, n_threads, false, out);
+    return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
 }
 
 brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads,

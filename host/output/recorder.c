@@ -2,6 +2,7 @@
  * each with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here
  * draws: see picture.c, curve.c. */
 #include "recorder_internal.h"
+#include "../../preprocess/domain/domain_rows.h"
 #include "sensors/assembly_sensors.h"
 #include "cracks/crack_records.h"
 #include "pictures/curve.h"
@@ -209,7 +210,12 @@ static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
     BRC_TRY(brc_assembly_sensors_create(recorder->context, assembly, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
     const double begin = brc_clock_s();
-    if (recorder->scene->output.n_frames >= 0)
+    const brc_output *output = &recorder->scene->output;
+    for (int32_t k = 0; k < assembly->n && (output->n_frames >= 0 || output->picture); ++k) {
+        const brc_domain *domain = brc_simulation_domain(assembly->part[k]);
+        if (domain->here) BRC_TRY(brc_domain_bring_to_first(recorder->context, domain)); /* it writes them */
+    }
+    if (output->n_frames >= 0)
         BRC_TRY(brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames));
     recorder->output_s += brc_clock_s() - begin;
     return BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample");

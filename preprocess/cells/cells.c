@@ -260,9 +260,9 @@ static int64_t elements_of(brc_run_range range, int64_t n)
 }
 
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
-                             double spacing, int n_threads, bool together, brc_cells *cells)
+                             double spacing, int n_threads, brc_together together, brc_cells *cells)
 {
-    memset(cells, 0, sizeof *cells);
+    *cells = (brc_cells){.together = together};
     shared all = {.context = context,
                   .position = position,
                   .n = n,

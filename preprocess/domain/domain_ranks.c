@@ -1,6 +1,7 @@
 /* The file that ranks map holds the struct, then each block behind its head; pointers are places in it, and NULL is 0,
  * where the struct is. Pages of a domain file have places there, but nothing is in them: they are laid over. */
 #include "domain_ranks.h"
+#include "domain_rows.h"
 
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
@@ -133,7 +134,7 @@ static brc_status find_domain(brc_context *context, brc_machine_memory *memory, 
     return BRC_OK;
 }
 
-brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *done)
+static brc_status share(brc_context *context, brc_domain **domain, bool *done)
 {
     const bool first = *domain != NULL;
     int file = -1;
@@ -167,5 +168,66 @@ brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *don
     }
 cleanup:
     brc_domain_free(&own);
+    return status;
+}
+
+/* ---- what each rank keeps for itself ---- */
+
+/* Its own cells, where ranks have the domain between them. */
+typedef struct kept {
+    uint8_t *here;
+    double *area_vector, *face_centroid, *vertex;
+} kept;
+
+static kept take_off(brc_domain *d)
+{
+    const kept k = {d->here, d->area_vector, d->face_centroid, d->vertex};
+    d->here = NULL;
+    d->area_vector = d->face_centroid = d->vertex = NULL;
+    return k;
+}
+
+static void put_on(kept k, brc_domain *d)
+{
+    d->here = k.here;
+    d->area_vector = k.area_vector;
+    d->face_centroid = k.face_centroid;
+    d->vertex = k.vertex;
+}
+
+/* All ranks: holders, whom the first ranks of machines know by their number among them, by their number among all; or
+ * back. */
+static brc_status name_holders(brc_context *context, bool back, brc_domain *d)
+{
+    const brc_ranks_place here = brc_ranks_here();
+    const int32_t first = here.local == 0;
+    BRC_LOCAL(context, here.count, int64_t, ones, "ranks");
+    BRC_LOCAL(context, here.count, int32_t, is_first, "ranks");
+    BRC_LOCAL(context, here.count, int32_t, name, "ranks");
+    for (int32_t k = 0; k < here.count; ++k)
+        ones[k] = 1;
+    BRC_TRY(brc_ranks_gather_all(context, &first, sizeof first, ones, is_first));
+    for (int32_t k = 0, n = 0; k < here.count; ++k)
+        if (is_first[k]) name[back ? k : n] = back ? n : k, ++n;
+    for (int64_t e = 0; d && d->holder && e < d->n_elements; ++e)
+        d->holder[e] = name[d->holder[e]];
+    return BRC_OK;
+}
+
+brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *done)
+{
+    kept own = {NULL};
+    const bool apart = *domain && (*domain)->holder;
+    BRC_TRY(name_holders(context, false, *domain));
+    if (apart) own = take_off(*domain);
+    brc_status status = share(context, domain, done);
+    if (apart && *domain) put_on(own, *domain);
+    BRC_TRY(status);
+    if (*done) return !apart && (*domain)->holder ? brc_domain_make_room(context, *domain) : BRC_OK;
+    BRC_TRY(name_holders(context, true, *domain)); /* the others build it whole */
+    if (!apart) return BRC_OK;
+    brc_ranks_narrow();
+    status = brc_domain_bring_whole(context, *domain);
+    brc_ranks_widen();
     return status;
 }

@@ -1,0 +1,234 @@
+/* Cells come window by window of ids, so that messages stay small beside what they fill: those that want some say which,
+ * those that hold them answer, and pages that are of no use any more go back. */
+#include "domain_rows.h"
+
+#include "../../host/base/memory.h"
+#include "../../host/base/ranks.h"
+
+#include <string.h>
+
+enum { WINDOW = 1 << 15, FACE = 6 };
+
+bool brc_domain_mine(const brc_domain *d, int64_t e)
+{
+    return !d->here || d->holder[e] == brc_ranks_mine();
+}
+
+/* ---- a cell as a row of numbers ---- */
+
+static int64_t numbers_of(const brc_domain *d, int64_t e)
+{
+    return FACE * (d->row_start[e + 1] - d->row_start[e]) + 3 * (d->vertex_start[e + 1] - d->vertex_start[e]);
+}
+
+/* Into a message, or out of one; returns where the next begins. */
+static double *move(const brc_domain *d, int64_t e, bool out, double *message)
+{
+    const int64_t h = d->row_start[e], n = d->row_start[e + 1] - h, v = d->vertex_start[e];
+    const struct {
+        double *data;
+        int64_t n;
+    } piece[] = {{d->area_vector + 3 * h, 3 * n},
+                 {d->face_centroid + 3 * h, 3 * n},
+                 {d->vertex + 3 * v, 3 * (d->vertex_start[e + 1] - v)}};
+    for (size_t k = 0; k < sizeof piece / sizeof *piece; message += piece[k++].n) {
+        if (piece[k].n == 0) continue;
+        if (out)
+            memcpy(piece[k].data, message, (size_t)piece[k].n * sizeof *message);
+        else
+            memcpy(message, piece[k].data, (size_t)piece[k].n * sizeof *message);
+    }
+    return message;
+}
+
+/* Pages that only cells [first, end) have something in. */
+static void forget(const brc_domain *d, int64_t first, int64_t end)
+{
+    const int64_t place = 3 * (int64_t)sizeof(double), h = d->row_start[first], v = d->vertex_start[first];
+    brc_memory_forget(d->area_vector + 3 * h, place * (d->row_start[end] - h));
+    brc_memory_forget(d->face_centroid + 3 * h, place * (d->row_start[end] - h));
+    brc_memory_forget(d->vertex + 3 * v, place * (d->vertex_start[end] - v));
+}
+
+/* ---- a window ---- */
+
+/* Ids that this rank asks each other one for, one after another. */
+static void list_wanted(const brc_domain *d, const uint8_t *wanted, int64_t first, int64_t end, int64_t *place,
+                        int32_t *id)
+{
+    for (int64_t e = first; e < end; ++e)
+        if (wanted[e] && !d->here[e]) {
+            if (id) id[place[d->holder[e]]] = (int32_t)e;
+            ++place[d->holder[e]];
+        }
+}
+
+/* The rows of ids, some from each rank. bytes: of ids there, of rows after this. */
+static brc_status pack(brc_context *context, const brc_domain *d, const int32_t *id, int64_t *bytes, double **out)
+{
+    const int32_t count = brc_ranks_count();
+    int64_t n = 0;
+    const int32_t *at = id;
+    for (int32_t k = 0; k < count; ++k) {
+        const int64_t n_ids = bytes[k] / (int64_t)sizeof *id;
+        int64_t numbers = 0;
+        for (int64_t i = 0; i < n_ids; ++i)
+            numbers += numbers_of(d, at[i]);
+        at += n_ids;
+        n += numbers;
+        bytes[k] = numbers * (int64_t)sizeof **out;
+    }
+    BRC_TRY(BRC_ALLOCATE(context, out, n, "cells of ranks"));
+    double *to = *out;
+    for (const int32_t *one = id; one < at; ++one)
+        to = move(d, *one, false, to);
+    return BRC_OK;
+}
+
+static brc_status bring_window(brc_context *context, const brc_domain *d, const uint8_t *wanted, int64_t first,
+                               int64_t end)
+{
+    const int32_t count = brc_ranks_count();
+    BRC_FREED int32_t *asked = NULL;
+    BRC_FREED double *rows = NULL;
+    BRC_FREED double *received = NULL;
+    int64_t n = 0;
+    BRC_LOCAL(context, count, int64_t, n_of, "cells of ranks");
+    BRC_LOCAL(context, count, int64_t, bytes, "cells of ranks");
+    BRC_LOCAL(context, count, int64_t, place, "cells of ranks");
+    list_wanted(d, wanted, first, end, n_of, NULL);
+    for (int32_t k = 0; k < count; ++k) {
+        place[k] = n;
+        n += n_of[k];
+        n_of[k] *= (int64_t)sizeof *asked;
+    }
+    BRC_LOCAL(context, n, int32_t, id, "cells of ranks");
+    list_wanted(d, wanted, first, end, place, id);
+    BRC_TRY(brc_ranks_trade(context, id, n_of, (void **)&asked, bytes));
+    BRC_TRY(pack(context, d, asked, bytes, &rows));
+    BRC_TRY(brc_ranks_trade(context, rows, bytes, (void **)&received, n_of));
+    double *from = received;
+    for (int64_t k = 0; k < n; ++k) {
+        from = move(d, id[k], true, from);
+        d->here[id[k]] = 1;
+    }
+    return BRC_OK;
+}
+
+static void drop(const brc_domain *d, const uint8_t *wanted, int64_t first, int64_t end)
+{
+    for (int64_t e = first, from = first; e <= end; ++e) {
+        if (e < end && !wanted[e]) {
+            d->here[e] = 0;
+            continue;
+        }
+        if (from < e) forget(d, from, e);
+        from = e + 1;
+    }
+}
+
+brc_status brc_domain_bring(brc_context *context, const brc_domain *d, const uint8_t *wanted, const int32_t *holder)
+{
+    for (int64_t first = 0; first < d->n_elements; first += WINDOW) {
+        const int64_t end = first + WINDOW < d->n_elements ? first + WINDOW : d->n_elements;
+        BRC_TRY(bring_window(context, d, wanted, first, end));
+        drop(d, wanted, first, end);
+    }
+    if (holder) memcpy(d->holder, holder, (size_t)d->n_elements * sizeof *holder);
+    return BRC_OK;
+}
+
+static brc_status bring_all(brc_context *context, const brc_domain *d, bool mine)
+{
+    BRC_LOCAL(context, d->n_elements, uint8_t, wanted, "cells of a rank");
+    if (mine)
+        memset(wanted, 1, (size_t)d->n_elements);
+    else
+        memcpy(wanted, d->here, (size_t)d->n_elements);
+    return brc_domain_bring(context, d, wanted, NULL);
+}
+
+brc_status brc_domain_bring_to_first(brc_context *context, const brc_domain *d)
+{
+    return bring_all(context, d, brc_ranks_mine() == 0);
+}
+
+brc_status brc_domain_bring_whole(brc_context *context, brc_domain *d)
+{
+    BRC_TRY(bring_all(context, d, true));
+    brc_memory_free(d->here);
+    brc_memory_free(d->holder);
+    brc_memory_free(d->free_corner);
+    d->here = NULL;
+    d->holder = NULL;
+    d->free_corner = NULL;
+    return BRC_OK;
+}
+
+/* ---- faces ---- */
+
+brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n, const int32_t *half_edge,
+                            double *out)
+{
+    const int32_t count = brc_ranks_count();
+    if (!d->here) {
+        for (int64_t k = 0; k < n; ++k) {
+            memcpy(out + FACE * k, d->area_vector + 3 * (int64_t)half_edge[k], 3 * sizeof *out);
+            memcpy(out + FACE * k + 3, d->face_centroid + 3 * (int64_t)half_edge[k], 3 * sizeof *out);
+        }
+        return BRC_OK;
+    }
+    BRC_LOCAL(context, count, int64_t, n_of, "faces of ranks");
+    BRC_LOCAL(context, count + 1, int64_t, place, "faces of ranks");
+    BRC_LOCAL(context, FACE * n, double, all, "faces of ranks");
+    for (int64_t k = 0; k < n; ++k)
+        ++n_of[d->holder[d->neighbour[d->twin[half_edge[k]]]]];
+    for (int32_t k = 0; k < count; ++k)
+        place[k + 1] = place[k] + n_of[k];
+    double *const mine = all + FACE * place[brc_ranks_mine()];
+    int64_t some = 0;
+    for (int64_t k = 0; k < n; ++k) {
+        const int64_t h = half_edge[k];
+        if (d->holder[d->neighbour[d->twin[h]]] != brc_ranks_mine()) continue;
+        memcpy(mine + FACE * some, d->area_vector + 3 * h, 3 * sizeof *out);
+        memcpy(mine + FACE * some++ + 3, d->face_centroid + 3 * h, 3 * sizeof *out);
+    }
+    BRC_TRY(brc_ranks_gather_all(context, mine, FACE * sizeof *out, n_of, all));
+    for (int64_t k = 0; k < n; ++k) {
+        const int32_t from = d->holder[d->neighbour[d->twin[half_edge[k]]]];
+        memcpy(out + FACE * k, all + FACE * place[from]++, FACE * sizeof *out);
+    }
+    return BRC_OK;
+}
+
+static int32_t rank_of_bond(const brc_domain *d, int64_t bond)
+{
+    return d->holder[d->neighbour[d->twin[d->bond_half_edge[bond]]]];
+}
+
+brc_status brc_domain_bonds(brc_context *context, const brc_domain *d, double *value)
+{
+    const int32_t count = brc_ranks_count(), mine = brc_ranks_mine();
+    BRC_LOCAL(context, count, int64_t, n_of, "bonds of ranks");
+    BRC_LOCAL(context, count + 1, int64_t, place, "bonds of ranks");
+    BRC_LOCAL(context, d->n_bonds, double, all, "bonds of ranks");
+    for (int64_t b = 0; b < d->n_bonds; ++b)
+        ++n_of[rank_of_bond(d, b)];
+    for (int32_t k = 0; k < count; ++k)
+        place[k + 1] = place[k] + n_of[k];
+    for (int64_t b = 0, at = place[mine]; b < d->n_bonds; ++b)
+        if (rank_of_bond(d, b) == mine) all[at++] = value[b];
+    BRC_TRY(brc_ranks_gather_all(context, all + place[mine], sizeof *all, n_of, all));
+    for (int64_t b = 0; b < d->n_bonds; ++b)
+        value[b] = all[place[rank_of_bond(d, b)]++];
+    return BRC_OK;
+}
+
+brc_status brc_domain_make_room(brc_context *context, brc_domain *d)
+{
+    const int64_t h = 3 * d->n_half_edges, v = 3 * d->vertex_start[d->n_elements];
+    BRC_TRY(BRC_ALLOCATE(context, &d->here, d->n_elements, "cells of a rank"));
+    BRC_TRY(brc_memory_allocate_sparse(context, (void **)&d->area_vector, h, sizeof(double), "area vectors"));
+    BRC_TRY(brc_memory_allocate_sparse(context, (void **)&d->face_centroid, h, sizeof(double), "face centroids"));
+    return brc_memory_allocate_sparse(context, (void **)&d->vertex, v, sizeof(double), "cell corners");
+}
