@@ -97,10 +97,11 @@ typedef struct brc_domain {
     int64_t *free_polygon_start; /* [n_free_faces + 1] */
     int32_t *free_polygon;       /* corners of free face f, counter-clockwise from outside: indices into vertex */
 
-    /* Where several ranks have a domain between them (domain_rows.h), this one has the corners and shared faces of some
-     * cells: vertex, area_vector and face_centroid hold nothing of others. All NULL: it has all. */
-    uint8_t *here;       /* [n_elements] 1: it has those of the cell */
+    /* Where several ranks have a domain between them (domain_rows.h), this one has the shared faces of some cells and the
+     * corners of some: area_vector, face_centroid and vertex hold nothing of others. All NULL: it has all. */
+    uint8_t *here;       /* [n_elements] 1: it has the faces of the cell */
     int32_t *holder;     /* [n_elements] a rank that has them */
+    int64_t *home;       /* [ranks + 1] rank k has the corners of cells home[k] to home[k + 1]; or the first has all */
     double *free_corner; /* [free_polygon_start[n_free_faces]][3] places of the corners in free_polygon [m] */
     uint32_t area_sum;   /* CRC-32 of all area vectors, in their order */
 
@@ -126,7 +127,7 @@ brc_status brc_domain_each_block(brc_domain *domain, bool down, brc_domain_visit
 brc_status brc_domain_take_pages(brc_context *context, brc_domain *domain);
 /* Append a copy of the name to the walls; wall_name has room for it. BRC_NO_MEMORY. */
 brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name);
-/* Corners and shared faces of element e are here. */
+/* The shared faces of element e are here. */
 static inline bool brc_domain_has(const brc_domain *domain, int64_t e)
 {
     return !domain->here || domain->here[e];

@@ -2,6 +2,7 @@
  * where the struct is. Pages of a domain file have places there, but nothing is in them: they are laid over. */
 #include "domain_ranks.h"
 #include "domain_rows.h"
+#include "../cells/cells_ranks.h"
 
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
@@ -176,13 +177,15 @@ cleanup:
 /* Its own cells, where ranks have the domain between them. */
 typedef struct kept {
     uint8_t *here;
+    int64_t *home;
     double *area_vector, *face_centroid, *vertex;
 } kept;
 
 static kept take_off(brc_domain *d)
 {
-    const kept k = {d->here, d->area_vector, d->face_centroid, d->vertex};
+    const kept k = {d->here, d->home, d->area_vector, d->face_centroid, d->vertex};
     d->here = NULL;
+    d->home = NULL;
     d->area_vector = d->face_centroid = d->vertex = NULL;
     return k;
 }
@@ -190,27 +193,48 @@ static kept take_off(brc_domain *d)
 static void put_on(kept k, brc_domain *d)
 {
     d->here = k.here;
+    d->home = k.home;
     d->area_vector = k.area_vector;
     d->face_centroid = k.face_centroid;
     d->vertex = k.vertex;
 }
 
-/* All ranks: holders, whom the first ranks of machines know by their number among them, by their number among all; or
- * back. */
-static brc_status name_holders(brc_context *context, bool back, brc_domain *d)
+/* All ranks: which of them are the first of their machine [count]. */
+static brc_status find_firsts(brc_context *context, int32_t *is_first)
 {
     const brc_ranks_place here = brc_ranks_here();
     const int32_t first = here.local == 0;
     BRC_LOCAL(context, here.count, int64_t, ones, "ranks");
-    BRC_LOCAL(context, here.count, int32_t, is_first, "ranks");
-    BRC_LOCAL(context, here.count, int32_t, name, "ranks");
     for (int32_t k = 0; k < here.count; ++k)
         ones[k] = 1;
-    BRC_TRY(brc_ranks_gather_all(context, &first, sizeof first, ones, is_first));
-    for (int32_t k = 0, n = 0; k < here.count; ++k)
+    return brc_ranks_gather_all(context, &first, sizeof first, ones, is_first);
+}
+
+/* Holders, whom the first ranks of machines know by their number among them, by their number among all; or back. */
+static brc_status name_holders(brc_context *context, const int32_t *is_first, bool back, brc_domain *d)
+{
+    const int32_t count = brc_ranks_count();
+    BRC_LOCAL(context, count, int32_t, name, "ranks");
+    for (int32_t k = 0, n = 0; k < count; ++k)
         if (is_first[k]) name[back ? k : n] = back ? n : k, ++n;
     for (int64_t e = 0; d && d->holder && e < d->n_elements; ++e)
         d->holder[e] = name[d->holder[e]];
+    return BRC_OK;
+}
+
+/* The same of those that have corners. */
+static brc_status name_homes(brc_context *context, const int32_t *is_first, brc_domain *d)
+{
+    const int32_t count = brc_ranks_count();
+    int32_t n = 0;
+    int64_t *home;
+    for (int32_t k = 0; k < count; ++k)
+        n += is_first[k];
+    BRC_TRY(BRC_ALLOCATE(context, &home, count + 1, "ranks"));
+    for (int32_t k = 0, at = 0; k < count; ++k)
+        home[k + 1] = is_first[k] ? brc_elements_of_rank(d->n_elements, at++, n).end : home[k];
+    brc_memory_free(d->home);
+    d->home = home;
     return BRC_OK;
 }
 
@@ -218,14 +242,19 @@ brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *don
 {
     kept own = {NULL};
     const bool apart = *domain && (*domain)->holder;
-    BRC_TRY(name_holders(context, false, *domain));
+    BRC_LOCAL(context, brc_ranks_count(), int32_t, is_first, "ranks");
+    BRC_TRY(find_firsts(context, is_first));
+    BRC_TRY(name_holders(context, is_first, false, *domain));
     if (apart) own = take_off(*domain);
     brc_status status = share(context, domain, done);
     if (apart && *domain) put_on(own, *domain);
     BRC_TRY(status);
-    if (*done) return !apart && (*domain)->holder ? brc_domain_make_room(context, *domain) : BRC_OK;
-    BRC_TRY(name_holders(context, true, *domain)); /* the others build it whole */
+    if (*done) {
+        if ((*domain)->holder && !apart) BRC_TRY(brc_domain_make_room(context, *domain));
+        return (*domain)->holder ? name_homes(context, is_first, *domain) : BRC_OK;
+    }
     if (!apart) return BRC_OK;
+    BRC_TRY(name_holders(context, is_first, true, *domain)); /* the others build it whole */
     brc_ranks_narrow();
     status = brc_domain_bring_whole(context, *domain);
     brc_ranks_widen();

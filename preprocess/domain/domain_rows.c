@@ -1,4 +1,4 @@
-/* Cells come window by window of ids, so that messages stay small beside what they fill: those that want some say which,
+/* Faces come window by window of ids, so that messages stay small beside what they fill: those that want some say which,
  * those that hold them answer, and pages that are of no use any more go back. */
 #include "domain_rows.h"
 
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum { WINDOW = 1 << 15, FACE = 6 };
+enum { WINDOW = 1 << 12, FACE = 6 };
 
 bool brc_domain_mine(const brc_domain *d, int64_t e)
 {
@@ -18,36 +18,25 @@ bool brc_domain_mine(const brc_domain *d, int64_t e)
 
 static int64_t numbers_of(const brc_domain *d, int64_t e)
 {
-    return FACE * (d->row_start[e + 1] - d->row_start[e]) + 3 * (d->vertex_start[e + 1] - d->vertex_start[e]);
+    return FACE * (d->row_start[e + 1] - d->row_start[e]);
 }
 
 /* Into a message, or out of one; returns where the next begins. */
 static double *move(const brc_domain *d, int64_t e, bool out, double *message)
 {
-    const int64_t h = d->row_start[e], n = d->row_start[e + 1] - h, v = d->vertex_start[e];
-    const struct {
-        double *data;
-        int64_t n;
-    } piece[] = {{d->area_vector + 3 * h, 3 * n},
-                 {d->face_centroid + 3 * h, 3 * n},
-                 {d->vertex + 3 * v, 3 * (d->vertex_start[e + 1] - v)}};
-    for (size_t k = 0; k < sizeof piece / sizeof *piece; message += piece[k++].n) {
-        if (piece[k].n == 0) continue;
-        if (out)
-            memcpy(piece[k].data, message, (size_t)piece[k].n * sizeof *message);
-        else
-            memcpy(message, piece[k].data, (size_t)piece[k].n * sizeof *message);
-    }
+    const int64_t h = d->row_start[e], n = 3 * (d->row_start[e + 1] - h);
+    double *const piece[] = {d->area_vector + 3 * h, d->face_centroid + 3 * h};
+    for (int k = 0; k < 2 && n > 0; ++k, message += n)
+        memcpy(out ? piece[k] : message, out ? message : piece[k], (size_t)n * sizeof *message);
     return message;
 }
 
 /* Pages that only cells [first, end) have something in. */
 static void forget(const brc_domain *d, int64_t first, int64_t end)
 {
-    const int64_t place = 3 * (int64_t)sizeof(double), h = d->row_start[first], v = d->vertex_start[first];
-    brc_memory_forget(d->area_vector + 3 * h, place * (d->row_start[end] - h));
-    brc_memory_forget(d->face_centroid + 3 * h, place * (d->row_start[end] - h));
-    brc_memory_forget(d->vertex + 3 * v, place * (d->vertex_start[end] - v));
+    const int64_t h = 3 * d->row_start[first], bytes = (3 * d->row_start[end] - h) * (int64_t)sizeof(double);
+    brc_memory_forget(d->area_vector + h, bytes);
+    brc_memory_forget(d->face_centroid + h, bytes);
 }
 
 /* ---- a window ---- */
@@ -78,7 +67,7 @@ static brc_status pack(brc_context *context, const brc_domain *d, const int32_t 
         n += numbers;
         bytes[k] = numbers * (int64_t)sizeof **out;
     }
-    BRC_TRY(BRC_ALLOCATE(context, out, n, "cells of ranks"));
+    BRC_TRY(BRC_ALLOCATE(context, out, n, "faces of ranks"));
     double *to = *out;
     for (const int32_t *one = id; one < at; ++one)
         to = move(d, *one, false, to);
@@ -93,16 +82,16 @@ static brc_status bring_window(brc_context *context, const brc_domain *d, const 
     BRC_FREED double *rows = NULL;
     BRC_FREED double *received = NULL;
     int64_t n = 0;
-    BRC_LOCAL(context, count, int64_t, n_of, "cells of ranks");
-    BRC_LOCAL(context, count, int64_t, bytes, "cells of ranks");
-    BRC_LOCAL(context, count, int64_t, place, "cells of ranks");
+    BRC_LOCAL(context, count, int64_t, n_of, "faces of ranks");
+    BRC_LOCAL(context, count, int64_t, bytes, "faces of ranks");
+    BRC_LOCAL(context, count, int64_t, place, "faces of ranks");
     list_wanted(d, wanted, first, end, n_of, NULL);
     for (int32_t k = 0; k < count; ++k) {
         place[k] = n;
         n += n_of[k];
         n_of[k] *= (int64_t)sizeof *asked;
     }
-    BRC_LOCAL(context, n, int32_t, id, "cells of ranks");
+    BRC_LOCAL(context, n, int32_t, id, "faces of ranks");
     list_wanted(d, wanted, first, end, place, id);
     BRC_TRY(brc_ranks_trade(context, id, n_of, (void **)&asked, bytes));
     BRC_TRY(pack(context, d, asked, bytes, &rows));
@@ -140,7 +129,7 @@ brc_status brc_domain_bring(brc_context *context, const brc_domain *d, const uin
 
 static brc_status bring_all(brc_context *context, const brc_domain *d, bool mine)
 {
-    BRC_LOCAL(context, d->n_elements, uint8_t, wanted, "cells of a rank");
+    BRC_LOCAL(context, d->n_elements, uint8_t, wanted, "faces of a rank");
     if (mine)
         memset(wanted, 1, (size_t)d->n_elements);
     else
@@ -148,20 +137,49 @@ static brc_status bring_all(brc_context *context, const brc_domain *d, bool mine
     return brc_domain_bring(context, d, wanted, NULL);
 }
 
+/* ---- corners ---- */
+
+static int64_t corners_before(const brc_domain *d, int32_t rank)
+{
+    return d->vertex_start[d->home[rank]];
+}
+
+/* Nobody has those that rank 0 has not. */
+static brc_status move_home(brc_context *context, const brc_domain *d)
+{
+    const int32_t count = brc_ranks_count(), mine = brc_ranks_mine();
+    const int64_t place = 3 * (int64_t)sizeof *d->vertex, first = corners_before(d, mine);
+    BRC_LOCAL(context, count, int64_t, bytes, "corners of ranks");
+    for (int32_t k = 1; k < count; ++k) /* those of rank 0 are where they stay */
+        bytes[k] = place * (corners_before(d, k + 1) - corners_before(d, k));
+    BRC_TRY(brc_ranks_gather_first(context, d->vertex + 3 * first, bytes, d->vertex + 3 * corners_before(d, 1)));
+    if (mine > 0) brc_memory_forget(d->vertex + 3 * first, bytes[mine]);
+    for (int32_t k = 1; k <= count; ++k)
+        d->home[k] = d->n_elements;
+    return BRC_OK;
+}
+
 brc_status brc_domain_bring_to_first(brc_context *context, const brc_domain *d)
 {
-    return bring_all(context, d, brc_ranks_mine() == 0);
+    if (d->home[1] == d->n_elements) return BRC_OK;
+    BRC_TRY(bring_all(context, d, brc_ranks_mine() == 0));
+    return move_home(context, d);
 }
 
 brc_status brc_domain_bring_whole(brc_context *context, brc_domain *d)
 {
+    const int32_t count = brc_ranks_count();
     BRC_TRY(bring_all(context, d, true));
-    brc_memory_free(d->here);
-    brc_memory_free(d->holder);
-    brc_memory_free(d->free_corner);
-    d->here = NULL;
-    d->holder = NULL;
-    d->free_corner = NULL;
+    BRC_LOCAL(context, count, int64_t, n_of, "corners of ranks");
+    for (int32_t k = 0; k < count; ++k)
+        n_of[k] = corners_before(d, k + 1) - corners_before(d, k);
+    BRC_TRY(brc_ranks_gather_all(context, d->vertex + 3 * corners_before(d, brc_ranks_mine()), 3 * sizeof *d->vertex,
+                                 n_of, d->vertex));
+    void **const block[] = {(void **)&d->here, (void **)&d->holder, (void **)&d->home, (void **)&d->free_corner};
+    for (size_t k = 0; k < sizeof block / sizeof *block; ++k) {
+        brc_memory_free(*block[k]);
+        *block[k] = NULL;
+    }
     return BRC_OK;
 }
 
@@ -227,7 +245,7 @@ brc_status brc_domain_bonds(brc_context *context, const brc_domain *d, double *v
 brc_status brc_domain_make_room(brc_context *context, brc_domain *d)
 {
     const int64_t h = 3 * d->n_half_edges, v = 3 * d->vertex_start[d->n_elements];
-    BRC_TRY(BRC_ALLOCATE(context, &d->here, d->n_elements, "cells of a rank"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->here, d->n_elements, "faces of a rank"));
     BRC_TRY(brc_memory_allocate_sparse(context, (void **)&d->area_vector, h, sizeof(double), "area vectors"));
     BRC_TRY(brc_memory_allocate_sparse(context, (void **)&d->face_centroid, h, sizeof(double), "face centroids"));
     return brc_memory_allocate_sparse(context, (void **)&d->vertex, v, sizeof(double), "cell corners");
