@@ -111,6 +111,28 @@ brc_status brc_memory_allocate_sparse(brc_context *context, void **out, int64_t 
     return BRC_OK;
 }
 
+void brc_memory_spill_sparse(void *block)
+{
+    size_t *const head = size_of(block);
+    if (head[1] == SPARSE && brc_spill_folder()) (void)brc_spill_lay((char *)head, head[0] + ALIGNMENT);
+}
+
+int64_t brc_memory_sparse_resident(const void *block)
+{
+    enum { AT_ONCE = 4096 };
+    unsigned char there[AT_ONCE];
+    const uintptr_t first = (uintptr_t)block - ALIGNMENT;
+    const int64_t page = sysconf(_SC_PAGESIZE), n = (brc_memory_block_bytes(block) + (int64_t)ALIGNMENT + page - 1) / page;
+    int64_t sum = 0;
+    for (int64_t k = 0; k < n; k += AT_ONCE) {
+        const int64_t some = n - k < AT_ONCE ? n - k : AT_ONCE;
+        if (mincore((void *)(first + (uintptr_t)(k * page)), (size_t)(some * page), there) != 0) return sum;
+        for (int64_t i = 0; i < some; ++i)
+            sum += page * (there[i] & 1);
+    }
+    return sum;
+}
+
 brc_status brc_memory_resize(brc_context *context, void **block, int64_t n, size_t size, const char *what)
 {
     void *fresh = NULL;

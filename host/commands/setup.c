@@ -2,6 +2,7 @@
 #include "setup.h"
 #include "scene_domain.h"
 #include "../../preprocess/domain/domain_ranks.h"
+#include "../../preprocess/domain/domain_rows.h"
 #include "../base/memory.h"
 #include "../base/ranks.h"
 #include "../base/spill.h"
@@ -92,6 +93,7 @@ brc_status brc_setup_simulations(brc_context *context, const brc_device_request 
         BRC_TRY(brc_device_open(context, &own, &setup->device[k]));
         if (k == 0) BRC_TRY(brc_device_log_places(context, setup->device[k]));
         BRC_TRY(brc_simulation_create(context, scene, setup->domain[k], setup->device[k], &setup->simulation[k]));
+        if (setup->domain[k]->here) BRC_TRY(brc_domain_tell(context, setup->built[k]));
     }
     setup->assembly = brc_assembly_make(setup->split->scene, setup->split, setup->n, setup->simulation);
     return BRC_OK;

@@ -16,6 +16,7 @@
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../base/spill.h"
 #include "../solver/run/stage_end.h"
 #include <math.h>
 #include <stdio.h>
@@ -72,6 +73,7 @@ static brc_status create(brc_context *context, const char *folder, double start,
     *recorder = (brc_recorder){.context = context, .start = start, .build_s = NAN};
     for (int k = 0; k < BRC_N_RECORDS; ++k)
         BRC_TRY_OR(cleanup, brc_file_join(context, folder, FILE_NAME[k], &recorder->path[k]));
+    BRC_TRY_OR(cleanup, brc_file_join(context, folder, "", &recorder->folder));
     BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder));
     if (!resumed) BRC_TRY_OR(cleanup, clean(recorder));
     /* A run that is killed leaves this one. It also shows at once that the folder can be written. */
@@ -103,6 +105,7 @@ void brc_recorder_free(brc_recorder **recorder)
     brc_history_csv_free(&r->csv);
     for (int k = 0; k < BRC_N_RECORDS; ++k)
         brc_memory_free(r->path[k]);
+    brc_memory_free(r->folder);
     brc_memory_free(r->value);
     brc_memory_free(r->frame_time);
     brc_memory_free(r->measures);
@@ -188,7 +191,10 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
 
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 {
-    BRC_TRY(brc_recorder_add_frame(r, simulation));
+    brc_recorder_spill(r, true);
+    const brc_status status = brc_recorder_add_frame(r, simulation);
+    brc_recorder_spill(r, false);
+    BRC_TRY(status);
     return write_index(r, r->context, NULL);
 }
 
@@ -202,6 +208,28 @@ static brc_status frame(void *self, brc_simulation *simulation)
     return status;
 }
 
+void brc_recorder_spill(const brc_recorder *recorder, bool begin)
+{
+    if (recorder->spills) brc_spill_into(begin ? recorder->folder : NULL);
+}
+
+/* Where ranks have the cells between them, the one that writes gets all. */
+static brc_status bring_cells(brc_recorder *r, const brc_assembly *assembly)
+{
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        const brc_domain *d = brc_simulation_domain(assembly->part[k]);
+        if (!d->here) continue;
+        r->spills = brc_file_writes();
+        brc_recorder_spill(r, true);
+        double *const block[] = {d->area_vector, d->face_centroid, d->vertex};
+        for (size_t b = 0; r->spills && b < sizeof block / sizeof *block; ++b)
+            brc_memory_spill_sparse(block[b]);
+        brc_recorder_spill(r, false);
+        BRC_TRY(brc_domain_bring_to_first(r->context, d));
+    }
+    return BRC_OK;
+}
+
 /* Sensors and an empty history. */
 static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
 {
@@ -211,12 +239,13 @@ static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
     const double begin = brc_clock_s();
     const brc_output *output = &recorder->scene->output;
-    for (int32_t k = 0; k < assembly->n && (output->n_frames >= 0 || output->picture); ++k) {
-        const brc_domain *domain = brc_simulation_domain(assembly->part[k]);
-        if (domain->here) BRC_TRY(brc_domain_bring_to_first(recorder->context, domain)); /* it writes them */
-    }
+    brc_status status = BRC_OK;
+    if (output->n_frames >= 0 || output->picture) BRC_TRY(bring_cells(recorder, assembly));
+    brc_recorder_spill(recorder, true);
     if (output->n_frames >= 0)
-        BRC_TRY(brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames));
+        status = brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames);
+    brc_recorder_spill(recorder, false);
+    BRC_TRY(status);
     recorder->output_s += brc_clock_s() - begin;
     return BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample");
 }
@@ -347,8 +376,10 @@ static void write_results(brc_recorder *r, brc_context *quiet, brc_status *statu
     note(r, quiet, write_index(r, quiet, ledger), status);
     note(r, quiet, brc_history_csv_finish(quiet, r->csv, r->history), status);
     if (*status == BRC_FILE_FAILED) return; /* no room for pictures */
+    brc_recorder_spill(r, true);
     if (r->scene->output.picture && ledger) /* a simulation that gives no ledger has no state to show */
         warn(r, quiet, brc_picture_write(quiet, r->assembly, r->path[BRC_RECORD_PICTURE]), "picture");
+    brc_recorder_spill(r, false);
     if (r->scene->output.curve_x[0] && r->scene->output.curve_y[0]) warn(r, quiet, write_curve(r, quiet), "curve");
 }
 

@@ -142,15 +142,11 @@ brc_status brc_cells_mark_apart(brc_context *context, brc_domain *domain)
 {
     const int64_t n = domain->n_elements;
     BRC_TRY(BRC_ALLOCATE(context, &domain->here, n, "cells of a rank"));
-    BRC_TRY(BRC_ALLOCATE(context, &domain->holder, n, "cells of ranks"));
     BRC_TRY(BRC_ALLOCATE(context, &domain->home, brc_ranks_count() + 1, "cells of ranks"));
     for (int32_t k = 0; k < brc_ranks_count(); ++k) {
         const brc_run_range range = brc_elements_of_rank(n, k, brc_ranks_count());
         domain->home[k + 1] = range.end;
-        for (int64_t e = range.first; e < range.end; ++e) {
-            domain->here[e] = k == brc_ranks_mine();
-            domain->holder[e] = k;
-        }
+        if (k == brc_ranks_mine()) memset(domain->here + range.first, 1, (size_t)(range.end - range.first));
     }
     return BRC_OK;
 }

@@ -45,7 +45,6 @@ brc_status brc_domain_each_block(brc_domain *d, bool down, brc_domain_visit visi
                             (void **)&d->free_polygon_start,
                             (void **)&d->free_polygon,
                             (void **)&d->here,
-                            (void **)&d->holder,
                             (void **)&d->home,
                             (void **)&d->free_corner,
                             (void **)&d->provenance,

@@ -98,10 +98,9 @@ typedef struct brc_domain {
     int32_t *free_polygon;       /* corners of free face f, counter-clockwise from outside: indices into vertex */
 
     /* Where several ranks have a domain between them (domain_rows.h), this one has the shared faces of some cells and the
-     * corners of some: area_vector, face_centroid and vertex hold nothing of others. All NULL: it has all. */
+     * corners of fewer: area_vector, face_centroid and vertex hold nothing of others. All NULL: it has all. */
     uint8_t *here;       /* [n_elements] 1: it has the faces of the cell */
-    int32_t *holder;     /* [n_elements] a rank that has them */
-    int64_t *home;       /* [ranks + 1] rank k has the corners of cells home[k] to home[k + 1]; or the first has all */
+    int64_t *home;       /* [ranks + 1] rank k has faces and corners of the cells home[k] to home[k + 1] */
     double *free_corner; /* [free_polygon_start[n_free_faces]][3] places of the corners in free_polygon [m] */
     uint32_t area_sum;   /* CRC-32 of all area vectors, in their order */
 

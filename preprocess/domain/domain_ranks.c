@@ -210,19 +210,7 @@ static brc_status find_firsts(brc_context *context, int32_t *is_first)
     return brc_ranks_gather_all(context, &first, sizeof first, ones, is_first);
 }
 
-/* Holders, whom the first ranks of machines know by their number among them, by their number among all; or back. */
-static brc_status name_holders(brc_context *context, const int32_t *is_first, bool back, brc_domain *d)
-{
-    const int32_t count = brc_ranks_count();
-    BRC_LOCAL(context, count, int32_t, name, "ranks");
-    for (int32_t k = 0, n = 0; k < count; ++k)
-        if (is_first[k]) name[back ? k : n] = back ? n : k, ++n;
-    for (int64_t e = 0; d && d->holder && e < d->n_elements; ++e)
-        d->holder[e] = name[d->holder[e]];
-    return BRC_OK;
-}
-
-/* The same of those that have corners. */
+/* Homes, which the first ranks of machines know by their number among them, by their number among all. */
 static brc_status name_homes(brc_context *context, const int32_t *is_first, brc_domain *d)
 {
     const int32_t count = brc_ranks_count();
@@ -241,20 +229,21 @@ static brc_status name_homes(brc_context *context, const int32_t *is_first, brc_
 brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *done)
 {
     kept own = {NULL};
-    const bool apart = *domain && (*domain)->holder;
+    const bool apart = *domain && (*domain)->here;
     BRC_LOCAL(context, brc_ranks_count(), int32_t, is_first, "ranks");
     BRC_TRY(find_firsts(context, is_first));
-    BRC_TRY(name_holders(context, is_first, false, *domain));
     if (apart) own = take_off(*domain);
     brc_status status = share(context, domain, done);
     if (apart && *domain) put_on(own, *domain);
     BRC_TRY(status);
+    int64_t any = apart;
+    BRC_TRY(brc_ranks_reduce(context, BRC_SUM, 1, &any));
+    if (any == 0) return BRC_OK;
     if (*done) {
-        if ((*domain)->holder && !apart) BRC_TRY(brc_domain_make_room(context, *domain));
-        return (*domain)->holder ? name_homes(context, is_first, *domain) : BRC_OK;
+        if (!apart) BRC_TRY(brc_domain_make_room(context, *domain));
+        return name_homes(context, is_first, *domain);
     }
-    if (!apart) return BRC_OK;
-    BRC_TRY(name_holders(context, is_first, true, *domain)); /* the others build it whole */
+    if (!apart) return BRC_OK; /* builds it whole */
     brc_ranks_narrow();
     status = brc_domain_bring_whole(context, *domain);
     brc_ranks_widen();

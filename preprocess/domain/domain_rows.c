@@ -2,16 +2,34 @@
  * those that hold them answer, and pages that are of no use any more go back. */
 #include "domain_rows.h"
 
+#include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../../host/base/ranks.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { WINDOW = 1 << 12, FACE = 6 };
 
 bool brc_domain_mine(const brc_domain *d, int64_t e)
 {
-    return !d->here || d->holder[e] == brc_ranks_mine();
+    const int32_t mine = brc_ranks_mine();
+    return !d->here || (e >= d->home[mine] && e < d->home[mine + 1]);
+}
+
+/* Whose home has element e. */
+static int32_t rank_of(const brc_domain *d, int64_t e)
+{
+    int32_t low = 0, high = brc_ranks_count() - 1;
+    while (low < high) {
+        const int32_t middle = (low + high) / 2;
+        if (e < d->home[middle + 1])
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
 }
 
 /* ---- a cell as a row of numbers ---- */
@@ -47,8 +65,9 @@ static void list_wanted(const brc_domain *d, const uint8_t *wanted, int64_t firs
 {
     for (int64_t e = first; e < end; ++e)
         if (wanted[e] && !d->here[e]) {
-            if (id) id[place[d->holder[e]]] = (int32_t)e;
-            ++place[d->holder[e]];
+            const int32_t from = rank_of(d, e);
+            if (id) id[place[from]] = (int32_t)e;
+            ++place[from];
         }
 }
 
@@ -104,37 +123,28 @@ static brc_status bring_window(brc_context *context, const brc_domain *d, const 
     return BRC_OK;
 }
 
-static void drop(const brc_domain *d, const uint8_t *wanted, int64_t first, int64_t end)
+brc_status brc_domain_bring(brc_context *context, const brc_domain *d, const uint8_t *wanted)
 {
-    for (int64_t e = first, from = first; e <= end; ++e) {
-        if (e < end && !wanted[e]) {
-            d->here[e] = 0;
-            continue;
-        }
-        if (from < e) forget(d, from, e);
-        from = e + 1;
-    }
+    for (int64_t first = 0; first < d->n_elements; first += WINDOW)
+        BRC_TRY(bring_window(context, d, wanted, first,
+                             first + WINDOW < d->n_elements ? first + WINDOW : d->n_elements));
+    return BRC_OK;
 }
 
-brc_status brc_domain_bring(brc_context *context, const brc_domain *d, const uint8_t *wanted, const int32_t *holder)
+void brc_domain_keep_home(const brc_domain *d)
 {
-    for (int64_t first = 0; first < d->n_elements; first += WINDOW) {
-        const int64_t end = first + WINDOW < d->n_elements ? first + WINDOW : d->n_elements;
-        BRC_TRY(bring_window(context, d, wanted, first, end));
-        drop(d, wanted, first, end);
-    }
-    if (holder) memcpy(d->holder, holder, (size_t)d->n_elements * sizeof *holder);
-    return BRC_OK;
+    const int64_t first = d->home[brc_ranks_mine()], end = d->home[brc_ranks_mine() + 1];
+    memset(d->here, 0, (size_t)first);
+    memset(d->here + end, 0, (size_t)(d->n_elements - end));
+    forget(d, 0, first);
+    forget(d, end, d->n_elements);
 }
 
 static brc_status bring_all(brc_context *context, const brc_domain *d, bool mine)
 {
     BRC_LOCAL(context, d->n_elements, uint8_t, wanted, "faces of a rank");
-    if (mine)
-        memset(wanted, 1, (size_t)d->n_elements);
-    else
-        memcpy(wanted, d->here, (size_t)d->n_elements);
-    return brc_domain_bring(context, d, wanted, NULL);
+    memset(wanted, mine, (size_t)d->n_elements);
+    return brc_domain_bring(context, d, wanted);
 }
 
 /* ---- corners ---- */
@@ -144,8 +154,8 @@ static int64_t corners_before(const brc_domain *d, int32_t rank)
     return d->vertex_start[d->home[rank]];
 }
 
-/* Nobody has those that rank 0 has not. */
-static brc_status move_home(brc_context *context, const brc_domain *d)
+/* To rank 0. */
+static brc_status bring_corners(brc_context *context, const brc_domain *d)
 {
     const int32_t count = brc_ranks_count(), mine = brc_ranks_mine();
     const int64_t place = 3 * (int64_t)sizeof *d->vertex, first = corners_before(d, mine);
@@ -154,8 +164,6 @@ static brc_status move_home(brc_context *context, const brc_domain *d)
         bytes[k] = place * (corners_before(d, k + 1) - corners_before(d, k));
     BRC_TRY(brc_ranks_gather_first(context, d->vertex + 3 * first, bytes, d->vertex + 3 * corners_before(d, 1)));
     if (mine > 0) brc_memory_forget(d->vertex + 3 * first, bytes[mine]);
-    for (int32_t k = 1; k <= count; ++k)
-        d->home[k] = d->n_elements;
     return BRC_OK;
 }
 
@@ -163,7 +171,11 @@ brc_status brc_domain_bring_to_first(brc_context *context, const brc_domain *d)
 {
     if (d->home[1] == d->n_elements) return BRC_OK;
     BRC_TRY(bring_all(context, d, brc_ranks_mine() == 0));
-    return move_home(context, d);
+    BRC_TRY(bring_corners(context, d));
+    for (int32_t k = 1; k <= brc_ranks_count(); ++k)
+        d->home[k] = d->n_elements;
+    brc_domain_keep_home(d);
+    return BRC_OK;
 }
 
 brc_status brc_domain_bring_whole(brc_context *context, brc_domain *d)
@@ -175,7 +187,7 @@ brc_status brc_domain_bring_whole(brc_context *context, brc_domain *d)
         n_of[k] = corners_before(d, k + 1) - corners_before(d, k);
     BRC_TRY(brc_ranks_gather_all(context, d->vertex + 3 * corners_before(d, brc_ranks_mine()), 3 * sizeof *d->vertex,
                                  n_of, d->vertex));
-    void **const block[] = {(void **)&d->here, (void **)&d->holder, (void **)&d->home, (void **)&d->free_corner};
+    void **const block[] = {(void **)&d->here, (void **)&d->home, (void **)&d->free_corner};
     for (size_t k = 0; k < sizeof block / sizeof *block; ++k) {
         brc_memory_free(*block[k]);
         *block[k] = NULL;
@@ -183,7 +195,59 @@ brc_status brc_domain_bring_whole(brc_context *context, brc_domain *d)
     return BRC_OK;
 }
 
+/* ---- how much ---- */
+
+typedef struct amount {
+    char node[128];
+    bool is_first;
+    double common, own; /* bytes that the ranks of a machine have once, and those of this rank */
+} amount;
+
+static brc_status add_block(void *self, void **block)
+{
+    if (*block) *(double *)self += (double)brc_memory_block_bytes(*block);
+    return BRC_OK;
+}
+
+brc_status brc_domain_tell(brc_context *context, brc_domain *d)
+{
+    const brc_ranks_place here = brc_ranks_here();
+    void *const apart[] = {d->area_vector, d->face_centroid, d->vertex}, *const alone[] = {d->here, d->home};
+    double whole = 0, most = 0;
+    amount own = {.is_first = here.local == 0};
+    BRC_LOCAL(context, here.count, amount, all, "memory of ranks");
+    BRC_LOCAL(context, here.count, int64_t, ones, "memory of ranks");
+    BRC_TRY(brc_domain_each_block(d, false, add_block, &whole));
+    own.common = whole;
+    for (int k = 0; k < 3; ++k) {
+        own.common -= (double)brc_memory_block_bytes(apart[k]);
+        own.own += (double)brc_memory_sparse_resident(apart[k]);
+    }
+    for (int k = 0; k < 2; ++k) {
+        own.common -= (double)brc_memory_block_bytes(alone[k]);
+        own.own += (double)brc_memory_block_bytes(alone[k]);
+    }
+    snprintf(own.node, sizeof own.node, "%s", here.node);
+    for (int32_t k = 0; k < here.count; ++k)
+        ones[k] = 1;
+    BRC_TRY(brc_ranks_gather_all(context, &own, sizeof own, ones, all));
+    for (int32_t k = 0; k < here.count; ++k) {
+        double sum = all[k].common;
+        for (int32_t other = 0; other < here.count && all[k].is_first; ++other)
+            if (strcmp(all[other].node, all[k].node) == 0) sum += all[other].own;
+        if (all[k].is_first) most = fmax(most, sum);
+    }
+    brc_log(context, BRC_LOG_INFO, "of a domain of %.4g MB a machine has %.4g MB at most, %.4g MB of them of all cells",
+            1e-6 * whole, 1e-6 * most, 1e-6 * own.common);
+    return BRC_OK;
+}
+
 /* ---- faces ---- */
+
+static int32_t rank_of_face(const brc_domain *d, int64_t half_edge)
+{
+    return rank_of(d, d->neighbour[d->twin[half_edge]]);
+}
 
 brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n, const int32_t *half_edge,
                             double *out)
@@ -200,20 +264,20 @@ brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n
     BRC_LOCAL(context, count + 1, int64_t, place, "faces of ranks");
     BRC_LOCAL(context, FACE * n, double, all, "faces of ranks");
     for (int64_t k = 0; k < n; ++k)
-        ++n_of[d->holder[d->neighbour[d->twin[half_edge[k]]]]];
+        ++n_of[rank_of_face(d, half_edge[k])];
     for (int32_t k = 0; k < count; ++k)
         place[k + 1] = place[k] + n_of[k];
     double *const mine = all + FACE * place[brc_ranks_mine()];
     int64_t some = 0;
     for (int64_t k = 0; k < n; ++k) {
         const int64_t h = half_edge[k];
-        if (d->holder[d->neighbour[d->twin[h]]] != brc_ranks_mine()) continue;
+        if (rank_of_face(d, h) != brc_ranks_mine()) continue;
         memcpy(mine + FACE * some, d->area_vector + 3 * h, 3 * sizeof *out);
         memcpy(mine + FACE * some++ + 3, d->face_centroid + 3 * h, 3 * sizeof *out);
     }
     BRC_TRY(brc_ranks_gather_all(context, mine, FACE * sizeof *out, n_of, all));
     for (int64_t k = 0; k < n; ++k) {
-        const int32_t from = d->holder[d->neighbour[d->twin[half_edge[k]]]];
+        const int32_t from = rank_of_face(d, half_edge[k]);
         memcpy(out + FACE * k, all + FACE * place[from]++, FACE * sizeof *out);
     }
     return BRC_OK;
@@ -221,7 +285,7 @@ brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n
 
 static int32_t rank_of_bond(const brc_domain *d, int64_t bond)
 {
-    return d->holder[d->neighbour[d->twin[d->bond_half_edge[bond]]]];
+    return rank_of_face(d, d->bond_half_edge[bond]);
 }
 
 brc_status brc_domain_bonds(brc_context *context, const brc_domain *d, double *value)

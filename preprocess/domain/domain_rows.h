@@ -1,7 +1,6 @@
-/* A domain that ranks (host/base/ranks.h) have between them: each has the shared faces of its own cells and of those
- * beside them, and until they are written the corners of those that it has computed, 1.4 of the 1.7 kB a cell; positions,
- * volumes, bonds and free faces have all (domain.h, here). The arrays are as long as of all, in pages that take no memory
- * where there is nothing. */
+/* A domain that ranks (host/base/ranks.h) have between them: the corners and shared faces of a cell, 1.4 of its 1.7 kB,
+ * are at home on the rank that computed them; positions, volumes, bonds and free faces have all (domain.h, here). The
+ * arrays are as long as of all, in pages that take no memory where there is nothing. */
 #ifndef BRC_PREPROCESS_DOMAIN_ROWS_H
 #define BRC_PREPROCESS_DOMAIN_ROWS_H
 
@@ -10,16 +9,17 @@
 /* Whether what all ranks count together is this one's to count at element e: each has some, where they are apart. */
 bool brc_domain_mine(const brc_domain *domain, int64_t e);
 
-/* All ranks, where domain->here is not NULL. This rank then has the faces of cells `wanted` [n_elements], which come from
- * those that have them, and of no others. holder [n_elements]: a rank that wants those of the cell; NULL: holders want
- * what they have. */
-brc_status brc_domain_bring(brc_context *context, const brc_domain *domain, const uint8_t *wanted,
-                            const int32_t *holder);
-/* All ranks, likewise: rank 0, which writes, then has the faces and corners of all cells, the others no corners. Again:
- * nothing. */
+/* All ranks, where domain->here is not NULL. This rank then has the faces of cells `wanted` [n_elements] too. */
+brc_status brc_domain_bring(brc_context *context, const brc_domain *domain, const uint8_t *wanted);
+/* Faces that are not of this rank's home are here no more. Not collective. */
+void brc_domain_keep_home(const brc_domain *domain);
+/* All ranks, likewise: the home of all cells is rank 0, which writes. Again: nothing. */
 brc_status brc_domain_bring_to_first(brc_context *context, const brc_domain *domain);
 /* All ranks, likewise, before either of these: every one then has all, in a domain that says so. */
 brc_status brc_domain_bring_whole(brc_context *context, brc_domain *domain);
+
+/* All ranks, likewise: the log says how much of the domain a machine has at most. */
+brc_status brc_domain_tell(brc_context *context, brc_domain *domain);
 
 /* All ranks, with the same n half-edges: their area vectors and centroids, out [n][6]. */
 brc_status brc_domain_faces(brc_context *context, const brc_domain *domain, int64_t n, const int32_t *half_edge,

@@ -70,7 +70,7 @@ static brc_status share_rows(brc_simulation *s)
                                                              .neighbour = neighbour});
 }
 
-/* Corners and faces of cells whose rows this rank owns, and of those that their bonds reach; on other devices than the
+/* For what is made now: faces of cells whose rows this rank owns, and of those that their bonds reach; on other devices than the
  * cpu, whose arrays are of all rows, of all. */
 static brc_status bring_cells(brc_simulation *s)
 {
@@ -79,20 +79,15 @@ static brc_status bring_cells(brc_simulation *s)
     const bool all = brc_device_get_info(s->device)->kind != BRC_DEVICE_CPU;
     if (!d->here) return BRC_OK;
     BRC_LOCAL(s->context, d->n_elements, uint8_t, wanted, "cells of a rank");
-    BRC_LOCAL(s->context, d->n_elements, int32_t, holder, "cells of ranks");
-    for (int32_t rank = 0; rank < brc_ranks_count(); ++rank) {
-        const brc_row_range rows = brc_device_rows_of(s->device, rank);
-        for (int32_t r = rows.first; r < rows.end; ++r)
-            if (layout->element_of_row[r] >= 0) holder[layout->element_of_row[r]] = rank;
-    }
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        if (all) wanted[e] = 1;
-        if (holder[e] != brc_ranks_mine()) continue;
-        wanted[e] = 1;
-        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
+    const brc_row_range own = brc_device_rows_here(s->device);
+    if (all) memset(wanted, 1, (size_t)d->n_elements);
+    for (int32_t r = own.first; r < own.end; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        if (e >= 0) wanted[e] = 1;
+        for (int64_t h = e < 0 ? 0 : d->row_start[e]; h < (e < 0 ? 0 : d->row_start[e + 1]); ++h)
             wanted[d->neighbour[h]] = 1;
     }
-    return brc_domain_bring(s->context, d, wanted, holder);
+    return brc_domain_bring(s->context, d, wanted);
 }
 
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
@@ -145,6 +140,7 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     BRC_TRY(brc_geometry_create(s));
     BRC_TRY(brc_simulation_fields_create(s));
     BRC_TRY(brc_effects_create(s));
+    if (domain->here) brc_domain_keep_home(domain);
     s->run->setup_seconds = brc_clock_s() - start;
     *out = s;
     s = NULL;
