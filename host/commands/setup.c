@@ -13,13 +13,12 @@
 #include <omp.h>
 #include <string.h>
 
-/* Machines have a domain between them where nothing on the way asks for corners and faces of all cells: contact has
- * polyhedra, statics levels, and both are made by all ranks alike. */
+/* Machines have a domain between them where nothing on the way asks for corners and faces of all cells, as levels of
+ * statics do, which all ranks make alike. */
 static brc_together way_of(const brc_split *split)
 {
     const brc_scene *scene = split->scene;
-    bool apart = split->n == 1 && scene->n_bodies == 1 && !scene->has_contact && scene->n_strikers == 0 &&
-                 !brc_spill_folder();
+    bool apart = split->n == 1 && scene->n_bodies == 1 && !brc_spill_folder();
     for (int32_t k = 0; k < scene->n_stages; ++k)
         apart = apart && scene->stages[k].solver == BRC_SOLVER_DYNAMIC;
     return brc_ranks_count() == 1 ? BRC_ALONE : apart ? BRC_APART : BRC_TOGETHER;

@@ -283,6 +283,15 @@ brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n
     return BRC_OK;
 }
 
+brc_status brc_domain_elements(brc_context *context, const brc_domain *d, double *value)
+{
+    const int32_t count = brc_ranks_count();
+    BRC_LOCAL(context, count, int64_t, n_of, "numbers of ranks");
+    for (int32_t k = 0; k < count; ++k)
+        n_of[k] = d->home[k + 1] - d->home[k];
+    return brc_ranks_gather_all(context, value + d->home[brc_ranks_mine()], sizeof *value, n_of, value);
+}
+
 static int32_t rank_of_bond(const brc_domain *d, int64_t bond)
 {
     return rank_of_face(d, d->bond_half_edge[bond]);

@@ -25,8 +25,10 @@ brc_status brc_domain_tell(brc_context *context, brc_domain *domain);
 brc_status brc_domain_faces(brc_context *context, const brc_domain *domain, int64_t n, const int32_t *half_edge,
                             double *out);
 
-/* All ranks, where domain->here is not NULL: value [n_bonds] of bonds whose smaller element is another's to count
+/* All ranks, where domain->here is not NULL: value [n_elements] of elements that are another's to count
  * (brc_domain_mine) comes from there. */
+brc_status brc_domain_elements(brc_context *context, const brc_domain *domain, double *value);
+/* The same of value [n_bonds], whose bonds count with their smaller element. */
 brc_status brc_domain_bonds(brc_context *context, const brc_domain *domain, double *value);
 
 /* Room for the corners and shared faces of a domain whose other arrays are there, none of which is here. */
