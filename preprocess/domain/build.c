@@ -97,6 +97,22 @@ static brc_status take_points(brc_context *context, const brc_build_request *req
     return BRC_OK;
 }
 
+/* Who has the cells then. */
+static brc_together together_of(const brc_build_request *request)
+{
+    bool apart = request->together == BRC_APART && request->n_cracks == 0;
+    for (int32_t k = 0; k < request->n_limits; ++k)
+        apart = apart && !brc_quality_is_of_directions(request->limits[k].number);
+    return request->together == BRC_APART && !apart ? BRC_TOGETHER : request->together;
+}
+
+/* What building holds here of what it holds where one rank does all of it: 0.2 have all of several machines, the rest
+ * lies apart (bench/results/2026-11-27-ranks-memory.md). */
+static double share_of(const brc_build_request *request)
+{
+    return together_of(request) == BRC_APART ? 0.2 + 0.8 / brc_ranks_count() : 1.0;
+}
+
 /* Everything known before a seed is placed: solid, walls, grid. What is held is the caller's to free in any case. */
 static brc_status plan(brc_context *context, const brc_build_request *request, work *w)
 {
@@ -113,7 +129,7 @@ static brc_status plan(brc_context *context, const brc_build_request *request, w
         if (n > 1e12)
             return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a spacing of %g m gives %.3g elements; use larger cells",
                             brc_fill_spacing(w->solid, &request->fill), n);
-        BRC_TRY(brc_estimate_check_memory(context, n, brc_estimate_bytes(w->solid, request, n) / 2.0));
+        BRC_TRY(brc_estimate_check_memory(context, n, share_of(request) * brc_estimate_bytes(w->solid, request, n) / 2.0));
         w->n = (int64_t)fmax(1.0, n);
     }
     w->spacing = cbrt(brc_solid_volume(w->solid, NULL) / (double)w->n);
@@ -123,7 +139,8 @@ static brc_status plan(brc_context *context, const brc_build_request *request, w
         BRC_TRY(brc_grid_plan(context, &request->fill, &w->walls, w->n_threads, &w->grid));
         w->n = w->grid.n_inside;
     }
-    return brc_estimate_check_memory(context, (double)w->n, brc_estimate_bytes(w->solid, request, (double)w->n));
+    return brc_estimate_check_memory(context, (double)w->n,
+                                     share_of(request) * brc_estimate_bytes(w->solid, request, (double)w->n));
 }
 
 brc_status brc_domain_estimate(brc_context *context, const brc_build_request *request, int64_t *n_elements,
@@ -253,15 +270,6 @@ static brc_status check_volume(brc_context *context, const work *w, const brc_do
                 "nearer (the error falls with the square of the cell size)",
                 w->spacing, 100.0 * q->volume_error);
     return BRC_OK;
-}
-
-/* Who has the cells then. */
-static brc_together together_of(const brc_build_request *request)
-{
-    bool apart = request->together == BRC_APART && request->n_cracks == 0;
-    for (int32_t k = 0; k < request->n_limits; ++k)
-        apart = apart && !brc_quality_is_of_directions(request->limits[k].number);
-    return request->together == BRC_APART && !apart ? BRC_TOGETHER : request->together;
 }
 
 /* Seeds to cells to half-edges, in the coordinates of the shape. */

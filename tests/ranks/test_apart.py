@@ -107,6 +107,9 @@ with tempfile.TemporaryDirectory() as temporary:
     run(3, 3, "left", *CHECKPOINTS)
     go_on(3, 3, "left-alone")
     go_on(1, 1, "left")
+    refused = under.start(2, [PROGRAM, "run", "scene.yaml"], BRECCIA_RANKS_MACHINES="two")
+    errors = refused.communicate(timeout=60)[1]
+    expect(refused.returncode == 2 and "is 'two', must be a number of machines" in errors and errors.count("\n") == 1, f"machines that are no number: {errors.strip()}")
 for failure in FAILURES:
     print("apart: " + failure)
 sys.exit(1 if FAILURES else 0)
