@@ -102,8 +102,8 @@ brc_status brc_memory_allocate_sparse(brc_context *context, void **out, int64_t 
                                            MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     *out = NULL;
     if (memory == MAP_FAILED)
-        return BRC_FAIL(context, BRC_NO_MEMORY, "%s: no addresses for %lld items of %zu bytes; use fewer elements", what,
-                        (long long)n, size);
+        return BRC_FAIL(context, BRC_NO_MEMORY, "%s: no addresses for %lld items of %zu bytes; use fewer elements",
+                        what, (long long)n, size);
     (void)madvise(memory, bytes + ALIGNMENT, MADV_NOHUGEPAGE); /* a large page would come whole */
     *out = (char *)memory + ALIGNMENT;
     size_of(*out)[0] = bytes;
@@ -111,10 +111,10 @@ brc_status brc_memory_allocate_sparse(brc_context *context, void **out, int64_t 
     return BRC_OK;
 }
 
-void brc_memory_spill_sparse(void *block)
+bool brc_memory_spill_sparse(void *block)
 {
     size_t *const head = size_of(block);
-    if (head[1] == SPARSE && brc_spill_folder()) (void)brc_spill_lay((char *)head, head[0] + ALIGNMENT);
+    return head[1] == SPARSE && brc_spill_folder() && brc_spill_lay((char *)head, head[0] + ALIGNMENT);
 }
 
 int64_t brc_memory_sparse_resident(const void *block)
@@ -122,7 +122,8 @@ int64_t brc_memory_sparse_resident(const void *block)
     enum { AT_ONCE = 4096 };
     unsigned char there[AT_ONCE];
     const uintptr_t first = (uintptr_t)block - ALIGNMENT;
-    const int64_t page = sysconf(_SC_PAGESIZE), n = (brc_memory_block_bytes(block) + (int64_t)ALIGNMENT + page - 1) / page;
+    const int64_t page = sysconf(_SC_PAGESIZE),
+                  n = (brc_memory_block_bytes(block) + (int64_t)ALIGNMENT + page - 1) / page;
     int64_t sum = 0;
     for (int64_t k = 0; k < n; k += AT_ONCE) {
         const int64_t some = n - k < AT_ONCE ? n - k : AT_ONCE;

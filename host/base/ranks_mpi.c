@@ -47,10 +47,11 @@ static brc_status read_machines(brc_context *context, int *out)
     if (!wanted || !*wanted) return BRC_OK;
     const long n = strtol(wanted, &end, 10);
     if (*end || n < 1 || n > INT_MAX)
-        return BRC_FAIL(context, BRC_BAD_INPUT,
-                        "BRECCIA_RANKS_MACHINES is '%s', must be a number of machines, 1 or more, that the ranks of this "
-                        "one are taken for; leave it out where they are real",
-                        wanted);
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "BRECCIA_RANKS_MACHINES is '%s', must be a number of machines, 1 or more, that the ranks of this "
+            "one are taken for; leave it out where they are real",
+            wanted);
     *out = (int)n;
     return BRC_OK;
 }

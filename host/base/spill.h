@@ -21,8 +21,8 @@ const char *brc_spill_folder(void);
 char *brc_spill_take(size_t bytes, char reason[BRC_SPILL_REASON]);
 /* bytes: as they were taken. Their room on the disk is free again. Of a parent's memory nothing happens. */
 void brc_spill_give(char *memory, size_t bytes);
-/* So many bytes at `at`, whole pages that came from mmap, lie in the file from here on, with what is in them, until they
- * are unmapped. False: they stay in memory, for there is no room. */
+/* So many bytes at `at`, whole pages that came from mmap, lie in the file from here on, with what is in them, until
+ * they are unmapped. False: they stay in memory, for there is no room. */
 bool brc_spill_lay(char *at, size_t bytes);
 /* Is it of this process's own file? */
 bool brc_spill_has(const void *at);

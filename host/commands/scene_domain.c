@@ -113,8 +113,8 @@ cleanup:
     return status;
 }
 
-static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, brc_together together,
-                            brc_domain **out)
+static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads,
+                            brc_together together, brc_domain **out)
 {
     if (scene->bodies[index].domain_file[0]) return read_body(context, scene, index, out);
     brc_scene_request request;
@@ -141,7 +141,8 @@ static void free_bodies(bodies *b)
     *b = (bodies){0};
 }
 
-static brc_status make_bodies(brc_context *context, const brc_scene *scene, int n_threads, brc_together together, bodies *out)
+static brc_status make_bodies(brc_context *context, const brc_scene *scene, int n_threads, brc_together together,
+                              bodies *out)
 {
     *out = (bodies){.n = scene->n_bodies};
     BRC_TRY(BRC_ALLOCATE(context, &out->domain, scene->n_bodies, "bodies of a scene"));

@@ -3,6 +3,7 @@
 #include "scene_domain.h"
 #include "../../preprocess/domain/domain_ranks.h"
 #include "../../preprocess/domain/domain_rows.h"
+#include "../base/log.h"
 #include "../base/memory.h"
 #include "../base/ranks.h"
 #include "../base/spill.h"
@@ -13,26 +14,36 @@
 #include <omp.h>
 #include <string.h>
 
-/* Machines have a domain between them where nothing on the way asks for corners and faces of all cells, as levels of
- * statics do, which all ranks make alike. */
-static brc_together way_of(const brc_split *split)
+/* Why machines cannot have a domain between them, but each has all: something on the way asks for corners and faces of
+ * all cells, as levels of statics do, which all ranks make alike. NULL: they can. */
+static const char *asks_for_all(const brc_split *split)
 {
     const brc_scene *scene = split->scene;
-    bool apart = split->n == 1 && scene->n_bodies == 1 && !brc_spill_folder();
+    if (brc_spill_folder()) return "BRECCIA_SPILL keeps it on a disk";
+    if (split->n > 1 || scene->n_bodies > 1) return "the scene has several bodies";
     for (int32_t k = 0; k < scene->n_stages; ++k)
-        apart = apart && scene->stages[k].solver == BRC_SOLVER_DYNAMIC;
-    return brc_ranks_count() == 1 ? BRC_ALONE : apart ? BRC_APART : BRC_TOGETHER;
+        if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC) return "a stage is not dynamic";
+    return NULL;
 }
 
 /* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells. */
 static brc_status build_among_firsts(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
 {
     brc_ranks_narrow();
-    brc_status status = brc_split_domains_build(context, split, n_threads, way_of(split), out);
+    const brc_together way = brc_ranks_count() == 1 ? BRC_ALONE : asks_for_all(split) ? BRC_TOGETHER : BRC_APART;
+    brc_status status = brc_split_domains_build(context, split, n_threads, way, out);
     for (int32_t k = 0; status == BRC_OK && k < split->n; ++k)
         status = brc_checkpoint_sum_areas(context, out[k]);
     brc_ranks_widen();
     return status;
+}
+
+static void tell_whole(brc_context *context, const brc_split *split, const brc_domain *domain)
+{
+    const char *const why = asks_for_all(split);
+    if (!domain->here && domain->pages.n == 0)
+        brc_log(context, BRC_LOG_INFO, "each machine has the whole domain: %s",
+                why ? why : "it is of spheres or of a file, or has cracks or limits of directions");
 }
 
 /* On several ranks the first of each machine builds. */
@@ -45,6 +56,7 @@ static brc_status build(brc_context *context, const brc_split *split, int n_thre
     if (here.local == 0) BRC_TRY(build_among_firsts(context, split, each * here.local_count, out));
     for (int32_t k = 0; shared && k < split->n; ++k)
         BRC_TRY(brc_domain_share(context, &out[k], &shared));
+    if (shared && here.local_count < here.count) tell_whole(context, split, out[0]);
     if (shared || here.local == 0) return BRC_OK;
     for (int32_t k = 0; k < split->n; ++k)
         brc_domain_free(&out[k]);

@@ -213,18 +213,21 @@ void brc_recorder_spill(const brc_recorder *recorder, bool begin)
     if (recorder->spills) brc_spill_into(begin ? recorder->folder : NULL);
 }
 
-/* Where ranks have the cells between them, the one that writes gets all. */
+/* On a disk, of what is held and made for frames: faces, corners, outlines, and fields. */
+#define BYTES_OF_A_CELL 4e3
+
+/* Where ranks have the cells between them, the one that writes gets all, in a file where its folder has room. */
 static brc_status bring_cells(brc_recorder *r, const brc_assembly *assembly)
 {
     for (int32_t k = 0; k < assembly->n; ++k) {
         const brc_domain *d = brc_simulation_domain(assembly->part[k]);
         if (!d->here) continue;
-        r->spills = brc_file_writes();
-        brc_recorder_spill(r, true);
-        double *const block[] = {d->area_vector, d->face_centroid, d->vertex};
+        double *const block[] = {d->vertex, d->area_vector, d->face_centroid};
+        brc_spill_into(brc_file_writes() ? r->folder : NULL);
+        r->spills = brc_file_writes() && brc_spill_room() > BYTES_OF_A_CELL * (double)d->n_elements;
         for (size_t b = 0; r->spills && b < sizeof block / sizeof *block; ++b)
-            brc_memory_spill_sparse(block[b]);
-        brc_recorder_spill(r, false);
+            r->spills = brc_memory_spill_sparse(block[b]);
+        brc_spill_into(NULL);
         BRC_TRY(brc_domain_bring_to_first(r->context, d));
     }
     return BRC_OK;

@@ -130,8 +130,8 @@ brc_status brc_cells_bring(brc_context *context, brc_cells *cells)
     for (int32_t k = 0; k < brc_ranks_count(); ++k) {
         const brc_run_range range = brc_runs_of_rank(cells->n_runs, k, brc_ranks_count());
         for (int64_t r = range.first; r < range.end; r += AT_ONCE)
-            BRC_TRY(bring_runs(context, k, range.end - r < AT_ONCE ? range.end - r : AT_ONCE, n_pieces,
-                               &cells->run[r]));
+            BRC_TRY(
+                bring_runs(context, k, range.end - r < AT_ONCE ? range.end - r : AT_ONCE, n_pieces, &cells->run[r]));
     }
     return BRC_OK;
 }

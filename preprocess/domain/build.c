@@ -129,7 +129,8 @@ static brc_status plan(brc_context *context, const brc_build_request *request, w
         if (n > 1e12)
             return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a spacing of %g m gives %.3g elements; use larger cells",
                             brc_fill_spacing(w->solid, &request->fill), n);
-        BRC_TRY(brc_estimate_check_memory(context, n, share_of(request) * brc_estimate_bytes(w->solid, request, n) / 2.0));
+        BRC_TRY(
+            brc_estimate_check_memory(context, n, share_of(request) * brc_estimate_bytes(w->solid, request, n) / 2.0));
         w->n = (int64_t)fmax(1.0, n);
     }
     w->spacing = cbrt(brc_solid_volume(w->solid, NULL) / (double)w->n);

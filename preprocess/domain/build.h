@@ -151,8 +151,8 @@ typedef struct brc_quality_limit {
 typedef enum brc_together {
     BRC_ALONE,    /* this one computes all */
     BRC_TOGETHER, /* all, each a range of runs, and all get all of them */
-    BRC_APART     /* all, and corners and shared faces stay where they were computed (domain.h, here); only of cells, without
-                   * cracks and limits of directions: else as BRC_TOGETHER */
+    BRC_APART     /* all, and corners and shared faces stay where they were computed (domain.h, here); only of cells,
+                   * without     cracks and limits of directions: else as BRC_TOGETHER */
 } brc_together;
 
 typedef struct brc_build_request {
@@ -178,7 +178,7 @@ typedef struct brc_build_request {
     const double *radii;        /* [n_points] borrowed [m]; NULL: points without radii */
     int32_t n_threads;          /* 0: as OpenMP decides. The result does not depend on it, bit for bit. */
     brc_together together;
-    int32_t body;  /* written into brc_domain.body */
+    int32_t body; /* written into brc_domain.body */
 } brc_build_request;
 
 /* Build. BRC_BAD_INPUT (spread outside 0..1, an empty set, an unknown wall, fewer than 1 element, less than two cells

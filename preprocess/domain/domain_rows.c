@@ -1,5 +1,5 @@
-/* Faces come window by window of ids, so that messages stay small beside what they fill: those that want some say which,
- * those that hold them answer, and pages that are of no use any more go back. */
+/* Faces come window by window of ids, so that messages stay small beside what they fill: those that want some say
+ * which, those that hold them answer, and pages that are of no use any more go back. */
 #include "domain_rows.h"
 
 #include "../../host/base/log.h"
@@ -126,8 +126,8 @@ static brc_status bring_window(brc_context *context, const brc_domain *d, const 
 brc_status brc_domain_bring(brc_context *context, const brc_domain *d, const uint8_t *wanted)
 {
     for (int64_t first = 0; first < d->n_elements; first += WINDOW)
-        BRC_TRY(bring_window(context, d, wanted, first,
-                             first + WINDOW < d->n_elements ? first + WINDOW : d->n_elements));
+        BRC_TRY(
+            bring_window(context, d, wanted, first, first + WINDOW < d->n_elements ? first + WINDOW : d->n_elements));
     return BRC_OK;
 }
 
@@ -249,8 +249,7 @@ static int32_t rank_of_face(const brc_domain *d, int64_t half_edge)
     return rank_of(d, d->neighbour[d->twin[half_edge]]);
 }
 
-brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n, const int32_t *half_edge,
-                            double *out)
+brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n, const int32_t *half_edge, double *out)
 {
     const int32_t count = brc_ranks_count();
     if (!d->here) {

@@ -80,8 +80,8 @@ static brc_status place_loops(brc_context *context, const brc_domain *d, range o
 
 /* ---- cells that ranks have between them (domain.h, here) ---- */
 
-/* Among the first ranks of machines: what cells have in an array, in which those of cell e begin at start(e), comes from
- * those that have made it. */
+/* Among the first ranks of machines: what cells have in an array, in which those of cell e begin at start(e), comes
+ * from those that have made it. */
 static brc_status bring(brc_context *context, const brc_domain *d, int64_t (*start)(const brc_domain *, int64_t),
                         int64_t bytes, void *all)
 {
@@ -168,8 +168,11 @@ brc_status brc_convex_share(brc_context *context, const brc_domain *domain, cons
     BRC_TRY(brc_ranks_agree(context, status));
     BRC_TRY(brc_ranks_agree(context, among_firsts(context, domain, &made.all, bring_all_but_loops)));
     if (!spheres)
-        BRC_TRY(place_loops(context, domain, !domain->here ? own : brc_ranks_here().local == 0 ? all : none, &made.all,
-                            &cells.loops));
+        BRC_TRY(place_loops(context, domain,
+                            !domain->here                 ? own
+                            : brc_ranks_here().local == 0 ? all
+                                                          : none,
+                            &made.all, &cells.loops));
     if (domain->here) BRC_TRY(brc_ranks_agree(context, BRC_OK)); /* all are placed */
     BRC_TRY(begin(context, cells.loops + behind.loops, sizeof *made.all.loop, &made.memory[BRC_CONVEX_LOOP],
                   &made.all.loop));

@@ -70,8 +70,8 @@ static brc_status share_rows(brc_simulation *s)
                                                              .neighbour = neighbour});
 }
 
-/* For what is made now: faces of cells whose rows this rank owns, and of those that their bonds reach; on other devices than the
- * cpu, whose arrays are of all rows, of all. */
+/* For what is made now: faces of cells whose rows this rank owns, and of those that their bonds reach; on other devices
+ * than the cpu, whose arrays are of all rows, of all. */
 static brc_status bring_cells(brc_simulation *s)
 {
     const brc_domain *d = s->domain;

@@ -119,9 +119,8 @@ static void describe(const brc_simulation *s, int64_t h, const double face[6], b
     event->element_i = (int32_t)i;
     event->element_j = (int32_t)j;
     for (int c = 0; c < 3; ++c) {
-        event->position[c] = d->element_kind == BRC_ELEMENT_CELL
-                                 ? face[3 + c]
-                                 : 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
+        event->position[c] =
+            d->element_kind == BRC_ELEMENT_CELL ? face[3 + c] : 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
         event->normal[c] = d->position[3 * j + c] - d->position[3 * i + c];
         length += event->normal[c] * event->normal[c];
     }

@@ -197,8 +197,7 @@ static double bond_energy(const brc_interface *at, const brc_material *weak)
 }
 
 static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond, const brc_material *weak,
-                      const brc_interface *at, const double *from_file, const double *bond_volume,
-                      brc_strengths *out)
+                      const brc_interface *at, const double *from_file, const double *bond_volume, brc_strengths *out)
 {
     const double factor = at && at->factor > 0 ? at->factor : 1;
     double scatter = 1;
