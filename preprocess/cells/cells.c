@@ -239,6 +239,11 @@ static brc_status allocate(brc_context *context, brc_cells *cells, int64_t n)
     BRC_TRY(BRC_ALLOCATE(context, &cells->n_free, n, "free faces per cell"));
     BRC_TRY(BRC_ALLOCATE(context, &cells->n_corners, n, "corners per cell"));
     BRC_TRY(BRC_ALLOCATE(context, &cells->volume, n, "cell volumes"));
+    if (cells->together == BRC_APART) {
+        BRC_TRY(
+            brc_memory_allocate_sparse(context, (void **)&cells->centroid, 3 * n, sizeof(double), "cell centroids"));
+        return brc_memory_allocate_sparse(context, (void **)&cells->inertia, 6 * n, sizeof(double), "cell inertia");
+    }
     BRC_TRY(BRC_ALLOCATE(context, &cells->centroid, 3 * n, "cell centroids"));
     return BRC_ALLOCATE(context, &cells->inertia, 6 * n, "cell inertia");
 }

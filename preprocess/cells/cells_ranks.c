@@ -124,7 +124,7 @@ brc_status brc_cells_bring(brc_context *context, brc_cells *cells)
     } all[] = {{sizeof *cells->n_faces, cells->n_faces},       {sizeof *cells->n_free, cells->n_free},
                {sizeof *cells->n_corners, cells->n_corners},   {sizeof *cells->volume, cells->volume},
                {3 * sizeof *cells->centroid, cells->centroid}, {6 * sizeof *cells->inertia, cells->inertia}};
-    for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+    for (size_t k = 0; k < sizeof all / sizeof *all - (cells->together == BRC_APART ? 2 : 0); ++k)
         BRC_TRY(brc_cells_bring_rows(context, n, all[k].bytes, all[k].rows));
     BRC_TRY(brc_ranks_most(context, 1, &cells->farthest_corner));
     for (int32_t k = 0; k < brc_ranks_count(); ++k) {

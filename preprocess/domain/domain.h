@@ -97,10 +97,10 @@ typedef struct brc_domain {
     int64_t *free_polygon_start; /* [n_free_faces + 1] */
     int32_t *free_polygon;       /* corners of free face f, counter-clockwise from outside: indices into vertex */
 
-    /* Where several ranks have a domain between them (domain_rows.h), this one has the shared faces of some cells and
-     * the corners of fewer: area_vector, face_centroid and vertex hold nothing of others. All NULL: it has all. */
+    /* Where several ranks have a domain between them (domain_rows.h), this one has the shared faces of some cells, and
+     * corners, centroids and inertia of fewer: those arrays hold nothing of others. All NULL: it has all. */
     uint8_t *here;       /* [n_elements] 1: it has the faces of the cell */
-    int64_t *home;       /* [ranks + 1] rank k has faces and corners of the cells home[k] to home[k + 1] */
+    int64_t *home;       /* [ranks + 1] rank k has all of the cells home[k] to home[k + 1] */
     double *free_corner; /* [free_polygon_start[n_free_faces]][3] places of the corners in free_polygon [m] */
     uint32_t area_sum;   /* CRC-32 of all area vectors, in their order */
 

@@ -178,25 +178,31 @@ cleanup:
 typedef struct kept {
     uint8_t *here;
     int64_t *home;
-    double *area_vector, *face_centroid, *vertex;
+    void *part[BRC_DOMAIN_PARTS];
 } kept;
 
 static kept take_off(brc_domain *d)
 {
-    const kept k = {d->here, d->home, d->area_vector, d->face_centroid, d->vertex};
+    kept k = {d->here, d->home, {NULL}};
+    void **part[BRC_DOMAIN_PARTS];
+    brc_domain_parts(d, part);
+    for (int p = 0; p < BRC_DOMAIN_PARTS; ++p) {
+        k.part[p] = *part[p];
+        *part[p] = NULL;
+    }
     d->here = NULL;
     d->home = NULL;
-    d->area_vector = d->face_centroid = d->vertex = NULL;
     return k;
 }
 
 static void put_on(kept k, brc_domain *d)
 {
+    void **part[BRC_DOMAIN_PARTS];
+    brc_domain_parts(d, part);
+    for (int p = 0; p < BRC_DOMAIN_PARTS; ++p)
+        *part[p] = k.part[p];
     d->here = k.here;
     d->home = k.home;
-    d->area_vector = k.area_vector;
-    d->face_centroid = k.face_centroid;
-    d->vertex = k.vertex;
 }
 
 /* All ranks: which of them are the first of their machine [count]. */

@@ -187,6 +187,8 @@ brc_status brc_domain_bring_whole(brc_context *context, brc_domain *d)
         n_of[k] = corners_before(d, k + 1) - corners_before(d, k);
     BRC_TRY(brc_ranks_gather_all(context, d->vertex + 3 * corners_before(d, brc_ranks_mine()), 3 * sizeof *d->vertex,
                                  n_of, d->vertex));
+    BRC_TRY(brc_domain_elements(context, d, 3, d->centroid));
+    BRC_TRY(brc_domain_elements(context, d, 6, d->inertia));
     void **const block[] = {(void **)&d->here, (void **)&d->home, (void **)&d->free_corner};
     for (size_t k = 0; k < sizeof block / sizeof *block; ++k) {
         brc_memory_free(*block[k]);
@@ -212,16 +214,17 @@ static brc_status add_block(void *self, void **block)
 brc_status brc_domain_tell(brc_context *context, brc_domain *d)
 {
     const brc_ranks_place here = brc_ranks_here();
-    void *const apart[] = {d->area_vector, d->face_centroid, d->vertex}, *const alone[] = {d->here, d->home};
+    void *const alone[] = {d->here, d->home}, **part[BRC_DOMAIN_PARTS];
     double whole = 0, most = 0;
     amount own = {.is_first = here.local == 0};
     BRC_LOCAL(context, here.count, amount, all, "memory of ranks");
     BRC_LOCAL(context, here.count, int64_t, ones, "memory of ranks");
     BRC_TRY(brc_domain_each_block(d, false, add_block, &whole));
     own.common = whole;
-    for (int k = 0; k < 3; ++k) {
-        own.common -= (double)brc_memory_block_bytes(apart[k]);
-        own.own += (double)brc_memory_sparse_resident(apart[k]);
+    brc_domain_parts(d, part);
+    for (int k = 0; k < BRC_DOMAIN_PARTS; ++k) {
+        own.common -= (double)brc_memory_block_bytes(*part[k]);
+        own.own += (double)brc_memory_sparse_resident(*part[k]);
     }
     for (int k = 0; k < 2; ++k) {
         own.common -= (double)brc_memory_block_bytes(alone[k]);
@@ -282,13 +285,14 @@ brc_status brc_domain_faces(brc_context *context, const brc_domain *d, int64_t n
     return BRC_OK;
 }
 
-brc_status brc_domain_elements(brc_context *context, const brc_domain *d, double *value)
+brc_status brc_domain_elements(brc_context *context, const brc_domain *d, int64_t width, double *value)
 {
     const int32_t count = brc_ranks_count();
     BRC_LOCAL(context, count, int64_t, n_of, "numbers of ranks");
     for (int32_t k = 0; k < count; ++k)
         n_of[k] = d->home[k + 1] - d->home[k];
-    return brc_ranks_gather_all(context, value + d->home[brc_ranks_mine()], sizeof *value, n_of, value);
+    return brc_ranks_gather_all(context, value + width * d->home[brc_ranks_mine()], width * (int64_t)sizeof *value,
+                                n_of, value);
 }
 
 static int32_t rank_of_bond(const brc_domain *d, int64_t bond)
@@ -314,11 +318,21 @@ brc_status brc_domain_bonds(brc_context *context, const brc_domain *d, double *v
     return BRC_OK;
 }
 
+void brc_domain_parts(brc_domain *d, void **out[BRC_DOMAIN_PARTS])
+{
+    void **const all[BRC_DOMAIN_PARTS] = {(void **)&d->area_vector, (void **)&d->face_centroid, (void **)&d->vertex,
+                                          (void **)&d->centroid, (void **)&d->inertia};
+    memcpy(out, all, sizeof all);
+}
+
 brc_status brc_domain_make_room(brc_context *context, brc_domain *d)
 {
-    const int64_t h = 3 * d->n_half_edges, v = 3 * d->vertex_start[d->n_elements];
-    BRC_TRY(BRC_ALLOCATE(context, &d->here, d->n_elements, "faces of a rank"));
-    BRC_TRY(brc_memory_allocate_sparse(context, (void **)&d->area_vector, h, sizeof(double), "area vectors"));
-    BRC_TRY(brc_memory_allocate_sparse(context, (void **)&d->face_centroid, h, sizeof(double), "face centroids"));
-    return brc_memory_allocate_sparse(context, (void **)&d->vertex, v, sizeof(double), "cell corners");
+    const int64_t n = d->n_elements, h = 3 * d->n_half_edges,
+                  numbers[BRC_DOMAIN_PARTS] = {h, h, 3 * d->vertex_start[n], 3 * n, 6 * n};
+    void **part[BRC_DOMAIN_PARTS];
+    brc_domain_parts(d, part);
+    BRC_TRY(BRC_ALLOCATE(context, &d->here, n, "faces of a rank"));
+    for (int k = 0; k < BRC_DOMAIN_PARTS; ++k)
+        BRC_TRY(brc_memory_allocate_sparse(context, part[k], numbers[k], sizeof(double), "cells of a rank"));
+    return BRC_OK;
 }

@@ -1,5 +1,5 @@
-/* A domain that ranks (host/base/ranks.h) have between them: the corners and shared faces of a cell, 1.4 of its 1.7 kB,
- * are at home on the rank that computed them; positions, volumes, bonds and free faces have all (domain.h, here). The
+/* A domain that ranks (host/base/ranks.h) have between them: the corners and shared faces of a cell, its centroid and
+ * inertia, 1.4 of its 1.7 kB, are at home on the rank that computed them; all have the rest (domain.h, here). The
  * arrays are as long as of all, in pages that take no memory where there is nothing. */
 #ifndef BRC_PREPROCESS_DOMAIN_ROWS_H
 #define BRC_PREPROCESS_DOMAIN_ROWS_H
@@ -25,13 +25,16 @@ brc_status brc_domain_tell(brc_context *context, brc_domain *domain);
 brc_status brc_domain_faces(brc_context *context, const brc_domain *domain, int64_t n, const int32_t *half_edge,
                             double *out);
 
-/* All ranks, where domain->here is not NULL: value [n_elements] of elements that are another's to count
+/* All ranks, where domain->here is not NULL: value [n_elements][width] of elements that are another's to count
  * (brc_domain_mine) comes from there. */
-brc_status brc_domain_elements(brc_context *context, const brc_domain *domain, double *value);
+brc_status brc_domain_elements(brc_context *context, const brc_domain *domain, int64_t width, double *value);
 /* The same of value [n_bonds], whose bonds count with their smaller element. */
 brc_status brc_domain_bonds(brc_context *context, const brc_domain *domain, double *value);
 
-/* Room for the corners and shared faces of a domain whose other arrays are there, none of which is here. */
+/* Where the arrays are of which a rank has a part. */
+enum { BRC_DOMAIN_PARTS = 5 };
+void brc_domain_parts(brc_domain *domain, void **out[BRC_DOMAIN_PARTS]);
+/* Room for these in a domain whose other arrays are there; nothing is here. */
 brc_status brc_domain_make_room(brc_context *context, brc_domain *domain);
 
 #endif

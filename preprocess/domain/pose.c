@@ -58,7 +58,7 @@ static void turn_tensor(const double m[3][3], double t[6])
     }
 }
 
-/* Elements [first, end) whose corners and shared faces are here; while a domain is built they are a range. */
+/* Elements [first, end) of which all is here; while a domain is built they are a range. */
 typedef struct range {
     int64_t first, end;
 } range;
@@ -115,7 +115,7 @@ void brc_pose_apply(const double origin[3], const double rotation[3], const doub
     brc_pose_matrix(rotation, m);
     if (rotate || translate) {
         move(m, origin, translation, domain->position, n, rotate);
-        move(m, origin, translation, domain->centroid, n, rotate);
+        move(m, origin, translation, domain->centroid + 3 * here.first, here.end - here.first, rotate);
     }
     if ((rotate || translate) && cells) {
         pose_cells(m, origin, translation, here, rotate, domain);
@@ -123,7 +123,7 @@ void brc_pose_apply(const double origin[3], const double rotation[3], const doub
     }
     if (rotate && cells) { /* the inertia of a sphere is the same whichever way it is turned */
         turn(m, domain->free_area_vector, domain->n_free_faces);
-        for (int64_t e = 0; e < n; ++e)
+        for (int64_t e = here.first; e < here.end; ++e)
             turn_tensor(m, domain->inertia + 6 * e);
     }
     set_bounds(domain, here);

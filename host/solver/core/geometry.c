@@ -152,8 +152,10 @@ static brc_status upload_masses(brc_simulation *s)
     if (s->core->inertia) {
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
         for (int64_t e = 0; e < d->n_elements; ++e)
-            values[e] = s->elastic[s->material_of_element[e]].density *
-                        (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
+            if (brc_domain_mine(d, e))
+                values[e] = s->elastic[s->material_of_element[e]].density *
+                            (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
+        if (d->here) BRC_TRY(brc_domain_elements(s->context, d, 1, values));
         BRC_TRY(brc_state_to_rows(s, s->core->inertia, values, 1, 1));
     }
     if (s->core->inv_volume) {

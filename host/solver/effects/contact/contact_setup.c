@@ -97,7 +97,7 @@ static brc_status find_reaches(const brc_simulation *s, double *value)
     BRC_LOCAL(s->context, d->n_elements, double, reach, "radii about elements");
     for (int64_t e = 0; e < d->n_elements; ++e)
         if (brc_domain_mine(d, e)) reach[e] = reach_of(d, e);
-    if (d->here) BRC_TRY(brc_domain_elements(s->context, d, reach));
+    if (d->here) BRC_TRY(brc_domain_elements(s->context, d, 1, reach));
     for (int32_t r = 0; r < s->layout->n_rows; ++r)
         value[r] = s->layout->element_of_row[r] < 0 ? 0 : reach[s->layout->element_of_row[r]];
     return BRC_OK;
