@@ -107,7 +107,7 @@ static brc_together together_of(const brc_build_request *request)
 }
 
 /* What building holds here of what it holds where one rank does all of it: 0.2 have all of several machines, the rest
- * lies apart (bench/results/2026-11-27-ranks-memory.md). */
+ * lies apart (bench/results/2026-11-27-ranks-apart.md). */
 static double share_of(const brc_build_request *request)
 {
     return together_of(request) == BRC_APART ? 0.2 + 0.8 / brc_ranks_count() : 1.0;
