@@ -1,5 +1,5 @@
 /* Faces come window by window of ids, so that messages stay small beside what they fill: those that want some say
- * which, those that hold them answer, and pages that are of no use any more go back. */
+ * which, those whose home they are answer. */
 #include "domain_rows.h"
 
 #include "../../host/base/log.h"
