@@ -15,6 +15,7 @@
 #define ELSEWHERE ((size_t)1)
 #define SPILLED ((size_t)2)
 #define MAPPED ((size_t)3)
+#define SPARSE ((size_t)4)
 /* From here on a block has pages of its own, which are there once they are written. */
 #define LEAST_MAPPED ((size_t)4 << 20)
 
@@ -93,6 +94,46 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t n, size
     return BRC_OK;
 }
 
+brc_status brc_memory_allocate_sparse(brc_context *context, void **out, int64_t n, size_t size, const char *what)
+{
+    const size_t bytes = rounded_bytes(n, size);
+    void *const memory = bytes == 0 ? MAP_FAILED
+                                    : mmap(NULL, bytes + ALIGNMENT, PROT_READ | PROT_WRITE,
+                                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    *out = NULL;
+    if (memory == MAP_FAILED)
+        return BRC_FAIL(context, BRC_NO_MEMORY, "%s: no addresses for %lld items of %zu bytes; use fewer elements",
+                        what, (long long)n, size);
+    (void)madvise(memory, bytes + ALIGNMENT, MADV_NOHUGEPAGE); /* a large page would come whole */
+    *out = (char *)memory + ALIGNMENT;
+    size_of(*out)[0] = bytes;
+    size_of(*out)[1] = SPARSE;
+    return BRC_OK;
+}
+
+bool brc_memory_spill_sparse(void *block)
+{
+    size_t *const head = size_of(block);
+    return head[1] == SPARSE && brc_spill_folder() && brc_spill_lay((char *)head, head[0] + ALIGNMENT);
+}
+
+int64_t brc_memory_sparse_resident(const void *block)
+{
+    enum { AT_ONCE = 4096 };
+    unsigned char there[AT_ONCE];
+    const uintptr_t first = (uintptr_t)block - ALIGNMENT;
+    const int64_t page = sysconf(_SC_PAGESIZE),
+                  n = (brc_memory_block_bytes(block) + (int64_t)ALIGNMENT + page - 1) / page;
+    int64_t sum = 0;
+    for (int64_t k = 0; k < n; k += AT_ONCE) {
+        const int64_t some = n - k < AT_ONCE ? n - k : AT_ONCE;
+        if (mincore((void *)(first + (uintptr_t)(k * page)), (size_t)(some * page), there) != 0) return sum;
+        for (int64_t i = 0; i < some; ++i)
+            sum += page * (there[i] & 1);
+    }
+    return sum;
+}
+
 brc_status brc_memory_resize(brc_context *context, void **block, int64_t n, size_t size, const char *what)
 {
     void *fresh = NULL;
@@ -127,6 +168,10 @@ void brc_memory_free(void *block)
     if (!block) return;
     size_t *const size = size_of(block);
     if (size[1] == ELSEWHERE) return;
+    if (size[1] == SPARSE) {
+        (void)munmap(size, *size + ALIGNMENT);
+        return;
+    }
     count(-(int64_t)*size);
     if (size[1] == SPILLED)
         brc_spill_give((char *)size, *size + ALIGNMENT);

@@ -4,6 +4,7 @@
 #define BRC_BASE_MEMORY_H
 
 #include "status.h"
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Allocate `count` zeroed items of `size` bytes into *out (64-byte aligned). Overflow and exhaustion give
@@ -12,6 +13,14 @@ brc_status brc_memory_allocate(brc_context *context, void **out, int64_t count, 
 /* Typed form: BRC_ALLOCATE(context, &domain->volume, n, "element volumes"). */
 #define BRC_ALLOCATE(context, pointer, count, what)                                                                    \
     brc_memory_allocate((context), (void **)(pointer), (int64_t)(count), sizeof(**(pointer)), (what))
+/* The same in pages of its own, which take no memory until they are written and are not counted: for blocks of which
+ * little is written. Never spilled (spill.h). */
+brc_status brc_memory_allocate_sparse(brc_context *context, void **out, int64_t count, size_t size, const char *what);
+/* What is written to such a block lies in a file from here on (spill.h). False: there is no folder, or no room there.
+ */
+bool brc_memory_spill_sparse(void *block);
+/* Bytes of its pages that are in memory now. */
+int64_t brc_memory_sparse_resident(const void *block);
 /* Grow or shrink a block got from brc_memory_allocate, keeping its first bytes; new bytes are zero. */
 brc_status brc_memory_resize(brc_context *context, void **block, int64_t count, size_t size, const char *what);
 /* Free a block got from brc_memory_allocate; accepts NULL. */

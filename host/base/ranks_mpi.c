@@ -1,6 +1,7 @@
 /* Ranks of MPI (3.0 or later): beginning and end, and what all agree on. */
 #include "log.h"
 #include "ranks_mpi_internal.h"
+#include <limits.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,12 +38,28 @@ brc_status brc_ranks_agree(brc_context *context, brc_status status)
 
 /* ---- beginning and end ---- */
 
-/* Ranks of this machine; for tests, of as many machines as BRECCIA_RANKS_MACHINES says. */
-static MPI_Comm find_node(void)
+/* For tests: machines that this one is taken for. */
+static brc_status read_machines(brc_context *context, int *out)
+{
+    const char *const wanted = getenv("BRECCIA_RANKS_MACHINES");
+    char *end;
+    *out = 1;
+    if (!wanted || !*wanted) return BRC_OK;
+    const long n = strtol(wanted, &end, 10);
+    if (*end || n < 1 || n > INT_MAX)
+        return BRC_FAIL(
+            context, BRC_BAD_INPUT,
+            "BRECCIA_RANKS_MACHINES is '%s', must be a number of machines, 1 or more, that the ranks of this "
+            "one are taken for; leave it out where they are real",
+            wanted);
+    *out = (int)n;
+    return BRC_OK;
+}
+
+/* Ranks of this machine, or of its part of so many. */
+static MPI_Comm find_node(int machines)
 {
     MPI_Comm node, part;
-    const char *const wanted = getenv("BRECCIA_RANKS_MACHINES");
-    const int machines = wanted ? atoi(wanted) : 1;
     MPI_Comm_split_type(brc_mpi.all, MPI_COMM_TYPE_SHARED, brc_mpi.whole.mine, MPI_INFO_NULL, &node);
     if (machines <= 1) return node;
     const int mine = (int)((int64_t)brc_mpi.whole.mine * machines / brc_mpi.whole.count);
@@ -53,9 +70,9 @@ static MPI_Comm find_node(void)
     return part;
 }
 
-static void share_table(void)
+static void share_table(int machines)
 {
-    MPI_Comm node = find_node();
+    MPI_Comm node = find_node(machines);
     MPI_Aint bytes = 0;
     int unit;
     MPI_Comm_rank(node, &brc_mpi.whole.local);
@@ -79,7 +96,7 @@ static void share_table(void)
 brc_status brc_ranks_start(brc_context *context, int *argc, char ***argv)
 {
     const char *delay = getenv("BRECCIA_RANKS_DELAY_US");
-    int provided, length;
+    int provided, length, machines;
     if (MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS || provided < MPI_THREAD_FUNNELED)
         return BRC_FAIL(context, BRC_INTERNAL, "MPI cannot be started with threads; use a build of it that can");
     MPI_Comm_dup(MPI_COMM_WORLD, &brc_mpi.all);
@@ -96,12 +113,13 @@ brc_status brc_ranks_start(brc_context *context, int *argc, char ***argv)
     if (delay) (void)sscanf(delay, "%u,%u", &brc_mpi.delay_us, &brc_mpi.latency_us);
     brc_mpi.draw = (uint64_t)getpid();
     brc_mpi.here = brc_mpi.whole;
-    if (brc_mpi.whole.count == 1) return BRC_OK;
-    share_table();
+    const brc_status status = read_machines(context, &machines);
+    if (brc_mpi.whole.count == 1) return status;
+    share_table(machines);
     brc_mpi.here = brc_mpi.whole;
     MPI_Irecv(&brc_mpi.heard, sizeof brc_mpi.heard, MPI_BYTE, MPI_ANY_SOURCE, BRC_ALARM_TAG, brc_mpi.alarms,
               &brc_mpi.alarm);
-    if (brc_mpi.whole.mine == 0) return BRC_OK;
+    if (brc_mpi.whole.mine == 0 || status != BRC_OK) return status;
     brc_log_set_level(context, BRC_LOG_ERROR);
     return freopen("/dev/null", "w", stdout) ? BRC_OK : BRC_FAIL(context, BRC_FILE_FAILED, "no /dev/null to write to");
 }

@@ -31,8 +31,16 @@ static struct {
     char reason[BRC_SPILL_REASON];
 } spill = {.once = PTHREAD_ONCE_INIT, .lock = PTHREAD_MUTEX_INITIALIZER, .file = -1};
 
+static const char *chosen;
+
+void brc_spill_into(const char *folder)
+{
+    chosen = folder;
+}
+
 const char *brc_spill_folder(void)
 {
+    if (chosen) return chosen;
     const char *const folder = getenv("BRECCIA_SPILL");
     return folder && *folder ? folder : NULL;
 }
@@ -169,6 +177,23 @@ void brc_spill_give(char *memory, size_t bytes)
     const size_t size = class_of(bytes, &k);
     if (!brc_spill_has(memory)) return; /* the parent's */
     return_place((size_t)(memory - spill.memory), size, k);
+}
+
+bool brc_spill_lay(char *at, size_t bytes)
+{
+    static const char nothing[4096];
+    char reason[BRC_SPILL_REASON];
+    char *const place = brc_spill_take(bytes, reason);
+    if (!place) return false;
+    for (size_t k = 0; k < bytes; k += sizeof nothing) {
+        const size_t some = bytes - k < sizeof nothing ? bytes - k : sizeof nothing;
+        if (memcmp(at + k, nothing, some) != 0) memcpy(place + k, at + k, some);
+    }
+    if (mmap(at, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED | MAP_NORESERVE, spill.file,
+             (off_t)(place - spill.memory)) != MAP_FAILED)
+        return true;
+    brc_spill_give(place, bytes);
+    return false;
 }
 
 bool brc_spill_has(const void *at)

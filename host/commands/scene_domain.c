@@ -113,13 +113,13 @@ cleanup:
     return status;
 }
 
-static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads, bool together,
-                            brc_domain **out)
+static brc_status make_body(brc_context *context, const brc_scene *scene, int32_t index, int n_threads,
+                            brc_together together, brc_domain **out)
 {
     if (scene->bodies[index].domain_file[0]) return read_body(context, scene, index, out);
     brc_scene_request request;
     BRC_TRY(brc_scene_request_make(context, scene, index, n_threads, &request));
-    request.build.together = together;
+    request.build.together = together == BRC_APART && scene->n_bodies > 1 ? BRC_TOGETHER : together;
     const brc_status status = brc_domain_build(context, &request.build, out);
     brc_scene_request_free(&request);
     return status;
@@ -141,7 +141,8 @@ static void free_bodies(bodies *b)
     *b = (bodies){0};
 }
 
-static brc_status make_bodies(brc_context *context, const brc_scene *scene, int n_threads, bool together, bodies *out)
+static brc_status make_bodies(brc_context *context, const brc_scene *scene, int n_threads, brc_together together,
+                              bodies *out)
 {
     *out = (bodies){.n = scene->n_bodies};
     BRC_TRY(BRC_ALLOCATE(context, &out->domain, scene->n_bodies, "bodies of a scene"));
@@ -166,7 +167,7 @@ static brc_status join_bodies(brc_context *context, bodies *b, brc_domain **out)
     return BRC_OK;
 }
 
-static brc_status build_scene(brc_context *context, const brc_scene *scene, int n_threads, bool together,
+static brc_status build_scene(brc_context *context, const brc_scene *scene, int n_threads, brc_together together,
                               brc_domain **out)
 {
     bodies own;
@@ -181,7 +182,7 @@ static brc_status build_scene(brc_context *context, const brc_scene *scene, int 
 
 brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out)
 {
-    return build_scene(context, scene, n_threads, false, out);
+    return build_scene(context, scene, n_threads, BRC_ALONE, out);
 }
 
 /* Bodies of different parts; those of one part are looked at when they are joined. */
@@ -258,7 +259,7 @@ cleanup:
     return status;
 }
 
-brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, bool together,
+brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, brc_together together,
                                    brc_domain **out)
 {
     bodies *part = NULL;
@@ -266,6 +267,7 @@ brc_status brc_split_domains_build(brc_context *context, const brc_split *split,
     for (int32_t k = 0; k < split->n; ++k)
         out[k] = NULL;
     if (split->n == 1) return build_scene(context, split->scene, n_threads, together, out);
+    if (together == BRC_APART) together = BRC_TOGETHER; /* overlaps are looked for among all */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, split->n, "parts of a scene"));
     for (int32_t k = 0; k < split->n; ++k)
         BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, together, &part[k]));

@@ -26,7 +26,7 @@ void brc_scene_request_free(brc_scene_request *request);
 brc_status brc_scene_domain_build(brc_context *context, const brc_scene *scene, int n_threads, brc_domain **out);
 /* One domain for every part of the scene, out [n]: a set may be empty in some parts, not in all. BRC_BAD_INPUT also
  * where bodies of different parts overlap. The caller frees each of *out. */
-brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, bool together,
+brc_status brc_split_domains_build(brc_context *context, const brc_split *split, int n_threads, brc_together together,
                                    brc_domain **out);
 
 #endif

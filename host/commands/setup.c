@@ -2,21 +2,48 @@
 #include "setup.h"
 #include "scene_domain.h"
 #include "../../preprocess/domain/domain_ranks.h"
+#include "../../preprocess/domain/domain_rows.h"
+#include "../base/log.h"
 #include "../base/memory.h"
 #include "../base/ranks.h"
+#include "../base/spill.h"
+#include "../output/checkpoint/checkpoint_identity.h"
 #include "../device/device_list.h"
 #include "../solver/laws/beam_polish.h"
 #include <math.h>
 #include <omp.h>
 #include <string.h>
 
+/* Why machines cannot have a domain between them, but each has all: something on the way asks for corners and faces of
+ * all cells, as levels of statics do, which all ranks make alike. NULL: they can. */
+static const char *asks_for_all(const brc_split *split)
+{
+    const brc_scene *scene = split->scene;
+    if (brc_spill_folder()) return "BRECCIA_SPILL keeps it on a disk";
+    if (split->n > 1 || scene->n_bodies > 1) return "the scene has several bodies";
+    for (int32_t k = 0; k < scene->n_stages; ++k)
+        if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC) return "a stage is not dynamic";
+    return NULL;
+}
+
 /* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells. */
 static brc_status build_among_firsts(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
 {
     brc_ranks_narrow();
-    const brc_status status = brc_split_domains_build(context, split, n_threads, brc_ranks_count() > 1, out);
+    const brc_together way = brc_ranks_count() == 1 ? BRC_ALONE : asks_for_all(split) ? BRC_TOGETHER : BRC_APART;
+    brc_status status = brc_split_domains_build(context, split, n_threads, way, out);
+    for (int32_t k = 0; status == BRC_OK && k < split->n; ++k)
+        status = brc_checkpoint_sum_areas(context, out[k]);
     brc_ranks_widen();
     return status;
+}
+
+static void tell_whole(brc_context *context, const brc_split *split, const brc_domain *domain)
+{
+    const char *const why = asks_for_all(split);
+    if (!domain->here && domain->pages.n == 0)
+        brc_log(context, BRC_LOG_INFO, "each machine has the whole domain: %s",
+                why ? why : "it is of spheres or of a file, or has cracks or limits of directions");
 }
 
 /* On several ranks the first of each machine builds. */
@@ -25,14 +52,15 @@ static brc_status build(brc_context *context, const brc_split *split, int n_thre
     const brc_ranks_place here = brc_ranks_here();
     const int each = n_threads > 0 ? n_threads : omp_get_max_threads();
     bool shared = here.count > 1;
-    if (!shared) return brc_split_domains_build(context, split, n_threads, false, out);
+    if (!shared) return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
     if (here.local == 0) BRC_TRY(build_among_firsts(context, split, each * here.local_count, out));
     for (int32_t k = 0; shared && k < split->n; ++k)
         BRC_TRY(brc_domain_share(context, &out[k], &shared));
+    if (shared && here.local_count < here.count) tell_whole(context, split, out[0]);
     if (shared || here.local == 0) return BRC_OK;
     for (int32_t k = 0; k < split->n; ++k)
         brc_domain_free(&out[k]);
-    return brc_split_domains_build(context, split, n_threads, false, out);
+    return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
 }
 
 brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads,
@@ -76,6 +104,7 @@ brc_status brc_setup_simulations(brc_context *context, const brc_device_request 
         BRC_TRY(brc_device_open(context, &own, &setup->device[k]));
         if (k == 0) BRC_TRY(brc_device_log_places(context, setup->device[k]));
         BRC_TRY(brc_simulation_create(context, scene, setup->domain[k], setup->device[k], &setup->simulation[k]));
+        if (setup->domain[k]->here) BRC_TRY(brc_domain_tell(context, setup->built[k]));
     }
     setup->assembly = brc_assembly_make(setup->split->scene, setup->split, setup->n, setup->simulation);
     return BRC_OK;

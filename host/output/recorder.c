@@ -2,6 +2,7 @@
  * each with the index and the histories so far, so that a killed run keeps all but its last interval. Nothing here
  * draws: see picture.c, curve.c. */
 #include "recorder_internal.h"
+#include "../../preprocess/domain/domain_rows.h"
 #include "sensors/assembly_sensors.h"
 #include "cracks/crack_records.h"
 #include "pictures/curve.h"
@@ -15,6 +16,7 @@
 #include "../base/file.h"
 #include "../base/log.h"
 #include "../base/memory.h"
+#include "../base/spill.h"
 #include "../solver/run/stage_end.h"
 #include <math.h>
 #include <stdio.h>
@@ -71,6 +73,7 @@ static brc_status create(brc_context *context, const char *folder, double start,
     *recorder = (brc_recorder){.context = context, .start = start, .build_s = NAN};
     for (int k = 0; k < BRC_N_RECORDS; ++k)
         BRC_TRY_OR(cleanup, brc_file_join(context, folder, FILE_NAME[k], &recorder->path[k]));
+    BRC_TRY_OR(cleanup, brc_file_join(context, folder, "", &recorder->folder));
     BRC_TRY_OR(cleanup, brc_file_make_folder(context, folder));
     if (!resumed) BRC_TRY_OR(cleanup, clean(recorder));
     /* A run that is killed leaves this one. It also shows at once that the folder can be written. */
@@ -102,6 +105,7 @@ void brc_recorder_free(brc_recorder **recorder)
     brc_history_csv_free(&r->csv);
     for (int k = 0; k < BRC_N_RECORDS; ++k)
         brc_memory_free(r->path[k]);
+    brc_memory_free(r->folder);
     brc_memory_free(r->value);
     brc_memory_free(r->frame_time);
     brc_memory_free(r->measures);
@@ -187,7 +191,10 @@ static brc_status write_index(brc_recorder *r, brc_context *context, const brc_l
 
 static brc_status write_frame(brc_recorder *r, brc_simulation *simulation)
 {
-    BRC_TRY(brc_recorder_add_frame(r, simulation));
+    brc_recorder_spill(r, true);
+    const brc_status status = brc_recorder_add_frame(r, simulation);
+    brc_recorder_spill(r, false);
+    BRC_TRY(status);
     return write_index(r, r->context, NULL);
 }
 
@@ -201,6 +208,31 @@ static brc_status frame(void *self, brc_simulation *simulation)
     return status;
 }
 
+void brc_recorder_spill(const brc_recorder *recorder, bool begin)
+{
+    if (recorder->spills) brc_spill_into(begin ? recorder->folder : NULL);
+}
+
+/* On a disk, of what is held and made for frames: faces, corners, outlines, and fields. */
+#define BYTES_OF_A_CELL 4e3
+
+/* Where ranks have the cells between them, the one that writes gets all, in a file where its folder has room. */
+static brc_status bring_cells(brc_recorder *r, const brc_assembly *assembly)
+{
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        const brc_domain *d = brc_simulation_domain(assembly->part[k]);
+        if (!d->here) continue;
+        double *const block[] = {d->vertex, d->area_vector, d->face_centroid};
+        brc_spill_into(brc_file_writes() ? r->folder : NULL);
+        r->spills = brc_file_writes() && brc_spill_room() > BYTES_OF_A_CELL * (double)d->n_elements;
+        for (size_t b = 0; r->spills && b < sizeof block / sizeof *block; ++b)
+            r->spills = brc_memory_spill_sparse(block[b]);
+        brc_spill_into(NULL);
+        BRC_TRY(brc_domain_bring_to_first(r->context, d));
+    }
+    return BRC_OK;
+}
+
 /* Sensors and an empty history. */
 static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
 {
@@ -209,8 +241,14 @@ static brc_status prepare(brc_recorder *recorder, brc_assembly *assembly)
     BRC_TRY(brc_assembly_sensors_create(recorder->context, assembly, &recorder->sensors));
     BRC_TRY(brc_history_create(recorder->context, n, &recorder->history));
     const double begin = brc_clock_s();
-    if (recorder->scene->output.n_frames >= 0)
-        BRC_TRY(brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames));
+    const brc_output *output = &recorder->scene->output;
+    brc_status status = BRC_OK;
+    if (output->n_frames >= 0 || output->picture) BRC_TRY(bring_cells(recorder, assembly));
+    brc_recorder_spill(recorder, true);
+    if (output->n_frames >= 0)
+        status = brc_frames_create(recorder->context, assembly, recorder->n_threads, &recorder->frames);
+    brc_recorder_spill(recorder, false);
+    BRC_TRY(status);
     recorder->output_s += brc_clock_s() - begin;
     return BRC_ALLOCATE(recorder->context, &recorder->value, n, "sample");
 }
@@ -341,8 +379,10 @@ static void write_results(brc_recorder *r, brc_context *quiet, brc_status *statu
     note(r, quiet, write_index(r, quiet, ledger), status);
     note(r, quiet, brc_history_csv_finish(quiet, r->csv, r->history), status);
     if (*status == BRC_FILE_FAILED) return; /* no room for pictures */
+    brc_recorder_spill(r, true);
     if (r->scene->output.picture && ledger) /* a simulation that gives no ledger has no state to show */
         warn(r, quiet, brc_picture_write(quiet, r->assembly, r->path[BRC_RECORD_PICTURE]), "picture");
+    brc_recorder_spill(r, false);
     if (r->scene->output.curve_x[0] && r->scene->output.curve_y[0]) warn(r, quiet, write_curve(r, quiet), "curve");
 }
 

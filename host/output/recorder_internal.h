@@ -28,6 +28,8 @@ enum {
 struct brc_recorder {
     brc_context *context;
     char *path[BRC_N_RECORDS]; /* owned */
+    char *folder;              /* owned */
+    bool spills;               /* what is held for files lies in a file there: faces and corners of all cells */
     const brc_scene *scene;
     const brc_prediction *prediction;
     int32_t n_domains;
@@ -47,6 +49,9 @@ struct brc_recorder {
     brc_checkpoint_report checkpoints;
     double start, build_s, output_s; /* start: brc_clock_s() then; the others: wall seconds */
 };
+
+/* From `begin` on until it is false long blocks lie in a file, where the recorder holds what it writes there. */
+void brc_recorder_spill(const brc_recorder *recorder, bool begin);
 
 /* recorder_frames.c */
 

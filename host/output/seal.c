@@ -14,6 +14,11 @@ uint32_t brc_seal_sum(uint32_t sum, const void *data, int64_t bytes)
     return (uint32_t)crc32_z(sum, data, (z_size_t)bytes);
 }
 
+uint32_t brc_seal_join(uint32_t sum, uint32_t next, int64_t bytes)
+{
+    return (uint32_t)crc32_combine(sum, next, (z_off_t)bytes);
+}
+
 /* Sum over the first `bytes` bytes; *read: how many there were. */
 static bool sum_file(FILE *file, char *block, int64_t bytes, int64_t *read, uint32_t *sum)
 {

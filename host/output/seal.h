@@ -13,5 +13,7 @@ brc_status brc_seal_add(brc_context *context, const char *path);
 brc_status brc_seal_check(brc_context *context, const char *path, bool *whole, char *why, size_t room);
 /* CRC-32 of `bytes` bytes, after those that gave `sum` (0: none). */
 uint32_t brc_seal_sum(uint32_t sum, const void *data, int64_t bytes);
+/* The same from the sum, beginning with 0, of these bytes. */
+uint32_t brc_seal_join(uint32_t sum, uint32_t next, int64_t bytes);
 
 #endif

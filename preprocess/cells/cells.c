@@ -239,6 +239,11 @@ static brc_status allocate(brc_context *context, brc_cells *cells, int64_t n)
     BRC_TRY(BRC_ALLOCATE(context, &cells->n_free, n, "free faces per cell"));
     BRC_TRY(BRC_ALLOCATE(context, &cells->n_corners, n, "corners per cell"));
     BRC_TRY(BRC_ALLOCATE(context, &cells->volume, n, "cell volumes"));
+    if (cells->together == BRC_APART) {
+        BRC_TRY(
+            brc_memory_allocate_sparse(context, (void **)&cells->centroid, 3 * n, sizeof(double), "cell centroids"));
+        return brc_memory_allocate_sparse(context, (void **)&cells->inertia, 6 * n, sizeof(double), "cell inertia");
+    }
     BRC_TRY(BRC_ALLOCATE(context, &cells->centroid, 3 * n, "cell centroids"));
     return BRC_ALLOCATE(context, &cells->inertia, 6 * n, "cell inertia");
 }
@@ -260,9 +265,9 @@ static int64_t elements_of(brc_run_range range, int64_t n)
 }
 
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
-                             double spacing, int n_threads, bool together, brc_cells *cells)
+                             double spacing, int n_threads, brc_together together, brc_cells *cells)
 {
-    memset(cells, 0, sizeof *cells);
+    *cells = (brc_cells){.together = together};
     shared all = {.context = context,
                   .position = position,
                   .n = n,

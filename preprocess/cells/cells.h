@@ -29,6 +29,7 @@ typedef struct brc_cell_run {
 
 typedef struct brc_cells {
     int64_t n_elements, n_runs;
+    brc_together together;
     brc_cell_run *run;      /* [n_runs] run r holds the elements r * BRC_RUN_LENGTH .. */
     int32_t *n_faces;       /* [n_elements] shared faces */
     int32_t *n_free;        /* [n_elements] free faces */
@@ -41,16 +42,15 @@ typedef struct brc_cells {
 
 /* Compute all cells. BRC_INTERNAL when a cell comes out wrong (with the element and its position), BRC_BAD_INPUT and
  * BRC_NO_MEMORY as brc_voronoi_create. Cells that reach beyond mirrored walls are no failure but have no place in a
- * domain: see farthest_corner. n_threads >= 1. together: all ranks (host/base/ranks.h) do, each a range of runs. Caller
- * frees with brc_cells_free. */
+ * domain: see farthest_corner. n_threads >= 1. Caller frees with brc_cells_free. */
 brc_status brc_cells_compute(brc_context *context, const double *position, int64_t n, const brc_walls *walls,
-                             double spacing, int n_threads, bool together, brc_cells *cells);
+                             double spacing, int n_threads, brc_together together, brc_cells *cells);
 /* Free the shared faces of a run, one run, or everything; all accept what is already free. */
 void brc_cell_run_free_faces(brc_cell_run *run);
 void brc_cell_run_free(brc_cell_run *run);
 void brc_cells_free(brc_cells *cells);
 
-/* One Lloyd sweep: replace every seed by the centroid of its cell. together: as above. */
+/* One Lloyd sweep: replace every seed by the centroid of its cell. together: all ranks do. */
 brc_status brc_cells_relax(brc_context *context, double *position, int64_t n, const brc_walls *walls, double spacing,
                            int n_threads, bool together, const char *what);
 

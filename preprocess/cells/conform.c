@@ -3,6 +3,8 @@
 #include "conform.h"
 
 #include "../../host/base/memory.h"
+#include "../../host/base/ranks.h"
+#include "cells_ranks.h"
 #include "mirror.h"
 
 #include <math.h>
@@ -30,7 +32,7 @@ brc_status brc_conform_walls(brc_context *context, const double *position, int64
 }
 
 brc_status brc_conform_cells(brc_context *context, const double *position, int64_t n, double spacing, int n_threads,
-                             bool together, brc_walls *walls, brc_cells *cells)
+                             brc_together together, brc_walls *walls, brc_cells *cells)
 {
     for (int t = 0; t < MOST_TRIES; ++t) {
         BRC_TRY(brc_conform_walls(context, position, n, spacing, true, n_threads, walls));
@@ -120,11 +122,15 @@ brc_status brc_conform_check(brc_context *context, const brc_walls *walls, doubl
         own[e] = brc_solid_distance(walls->solid, domain->position + 3 * e, walls->reach);
 #pragma omp parallel for schedule(dynamic, 256) num_threads(n_threads) reduction(+ : n_bad)
     for (int64_t e = 0; e < n; ++e)
-        for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1]; ++h) {
+        for (int64_t h = domain->row_start[e]; brc_domain_has(domain, e) && h < domain->row_start[e + 1]; ++h) {
             const double outside = domain->neighbour[h] < e ? 0.0 : bond_outside(walls, domain, e, h, spacing, own);
             n_bad += outside > 0.0;
             worst[e] = fmax(worst[e], outside);
         }
+    if (domain->here) {
+        BRC_TRY_OR(cleanup, brc_ranks_reduce(context, BRC_SUM, 1, &n_bad));
+        BRC_TRY_OR(cleanup, brc_cells_bring_rows(context, n, sizeof *worst, worst));
+    }
     for (int64_t e = 0; e < n; ++e)
         if (worst[e] > 0.0 && (at < 0 || worst[e] > worst[at])) at = e;
     if (at >= 0) {

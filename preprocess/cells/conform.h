@@ -12,7 +12,7 @@ brc_status brc_conform_walls(brc_context *context, const double *position, int64
 /* All cells, with mirror images from deeper and deeper seeds until every cell is closed by walls that reach it.
  * BRC_BAD_INPUT when that does not end. As brc_cells_compute otherwise. */
 brc_status brc_conform_cells(brc_context *context, const double *position, int64_t n, double spacing, int n_threads,
-                             bool together, brc_walls *walls, brc_cells *cells);
+                             brc_together together, brc_walls *walls, brc_cells *cells);
 /* Refuse a domain (before its pose) with bonds through places outside the solid, with the worst place and the cure.
  * Nothing to do for walls without mirror images. */
 brc_status brc_conform_check(brc_context *context, const brc_walls *walls, double spacing, int n_threads,

@@ -3,6 +3,7 @@
 #include "halfedge.h"
 
 #include "../../host/base/memory.h"
+#include "cells_ranks.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,6 +41,14 @@ static int64_t run_end(const brc_cells *cells, int64_t r)
     return end < cells->n_elements ? end : cells->n_elements;
 }
 
+/* Numbers of which a rank may have some alone. */
+static brc_status allocate_places(brc_context *context, const brc_domain *domain, int64_t n, double **out,
+                                  const char *what)
+{
+    return domain->here ? brc_memory_allocate_sparse(context, (void **)out, n, sizeof **out, what)
+                        : BRC_ALLOCATE(context, out, n, what);
+}
+
 /* Move shared faces of all runs into the domain's (still uncompressed) rows. */
 static void gather_faces(brc_cells *cells, int n_threads, brc_domain *domain, double *area)
 {
@@ -51,7 +60,7 @@ static void gather_faces(brc_cells *cells, int n_threads, brc_domain *domain, do
         if (n == 0) continue;
         memcpy(domain->neighbour + h, run->neighbour, n * sizeof(int32_t));
         memcpy(area + h, run->area, n * sizeof(double));
-        memcpy(domain->face_centroid + 3 * h, run->centroid, 3 * n * sizeof(double));
+        if (run->centroid) memcpy(domain->face_centroid + 3 * h, run->centroid, 3 * n * sizeof(double));
         brc_cell_run_free_faces(run);
     }
 }
@@ -105,7 +114,8 @@ static brc_status drop_faces(brc_context *context, double limit, double mean, br
                 domain->neighbour[to] = domain->neighbour[h];
                 domain->twin[to] = domain->twin[h];
                 area[to] = area[h];
-                memmove(domain->face_centroid + 3 * to, domain->face_centroid + 3 * h, 3 * sizeof(double));
+                if (brc_domain_has(domain, e))
+                    memmove(domain->face_centroid + 3 * to, domain->face_centroid + 3 * h, 3 * sizeof(double));
                 place[h] = (int32_t)(to++ + 1);
             }
             domain->row_start[e + 1] = to;
@@ -130,7 +140,7 @@ static brc_status pair_faces(brc_context *context, int n_threads, const double *
     domain->n_bonds = domain->n_half_edges / 2;
     BRC_TRY(BRC_ALLOCATE(context, &domain->bond, domain->n_half_edges, "bonds of half-edges"));
     BRC_TRY(BRC_ALLOCATE(context, &domain->bond_half_edge, domain->n_bonds, "half-edges of bonds"));
-    BRC_TRY(BRC_ALLOCATE(context, &domain->area_vector, 3 * domain->n_half_edges, "area vectors"));
+    BRC_TRY(allocate_places(context, domain, 3 * domain->n_half_edges, &domain->area_vector, "area vectors"));
     int32_t b = 0;
     for (int64_t e = 0; e < domain->n_elements; ++e)
         for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1]; ++h)
@@ -141,18 +151,20 @@ static brc_status pair_faces(brc_context *context, int n_threads, const double *
 #pragma omp parallel for schedule(static) num_threads(n_threads)
     for (int64_t e = 0; e < domain->n_elements; ++e)
         for (int64_t h = domain->row_start[e]; h < domain->row_start[e + 1]; ++h) {
-            if (domain->neighbour[h] < e) continue;
-            const double *x = domain->position + 3 * e, *y = domain->position + 3 * (int64_t)domain->neighbour[h];
+            const int64_t j = domain->neighbour[h];
+            const bool mine = brc_domain_has(domain, e), other = brc_domain_has(domain, j);
+            if (j < e || (!mine && !other)) continue;
+            const double *x = domain->position + 3 * e, *y = domain->position + 3 * j;
             const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
             const double inv_q = area[h] / sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
             const int64_t t = domain->twin[h]; /* no other iteration touches the twin */
             for (int d = 0; d < 3; ++d) {
-                domain->area_vector[3 * h + d] = inv_q * r[d];
-                domain->area_vector[3 * t + d] = -inv_q * r[d];
-                domain->face_centroid[3 * t + d] = domain->face_centroid[3 * h + d];
+                if (mine) domain->area_vector[3 * h + d] = inv_q * r[d];
+                if (other) domain->area_vector[3 * t + d] = -inv_q * r[d];
+                if (mine && other) domain->face_centroid[3 * t + d] = domain->face_centroid[3 * h + d];
             }
         }
-    return BRC_OK;
+    return domain->here ? brc_cells_bring_centroids(context, domain) : BRC_OK;
 }
 
 static bool free_face_kept(const brc_cell_run *run, int64_t f, double limit)
@@ -181,7 +193,7 @@ static void copy_run(const brc_cells *cells, int64_t r, double limit, const int6
 {
     const brc_cell_run *run = &cells->run[r];
     const int64_t first = r * BRC_RUN_LENGTH;
-    if (run->n_vertices > 0)
+    if (run->vertex)
         memcpy(domain->vertex + 3 * domain->vertex_start[first], run->vertex,
                3 * (size_t)run->n_vertices * sizeof(double));
     int64_t f = 0, p = 0, to = domain->free_start[first], polygon = polygon_start[first];
@@ -229,7 +241,7 @@ static brc_status build_free_faces(brc_context *context, brc_cells *cells, doubl
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->free_centroid, 3 * m, "free face centroids"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->free_polygon_start, m + 1, "free polygons"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->free_polygon, n_corners, "corners of free polygons"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->vertex, 3 * n_vertices, "cell corners"));
+    BRC_TRY_OR(cleanup, allocate_places(context, domain, 3 * n_vertices, &domain->vertex, "cell corners"));
     domain->free_polygon_start[m] = n_corners;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(n_threads)
     for (int64_t r = 0; r < cells->n_runs; ++r) {
@@ -258,6 +270,7 @@ brc_status brc_half_edges_build(brc_context *context, brc_cells *cells, double t
     double *area = NULL;
     brc_status status = BRC_ALLOCATE(context, &domain->row_start, domain->n_elements + 1, "rows of half-edges");
     if (status != BRC_OK) goto cleanup;
+    if (cells->together == BRC_APART) BRC_TRY_OR(cleanup, brc_cells_mark_apart(context, domain));
     domain->n_half_edges = prefix_sum(cells->n_faces, domain->n_elements, domain->row_start);
     if (domain->n_half_edges > INT32_MAX - 1) {
         status = BRC_FAIL(context, BRC_BAD_INPUT, "%lld half-edges, must be below 2^31; use fewer elements",
@@ -268,7 +281,7 @@ brc_status brc_half_edges_build(brc_context *context, brc_cells *cells, double t
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &area, n, "face areas"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->neighbour, n, "neighbours"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->twin, n, "twins"));
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &domain->face_centroid, 3 * n, "face centroids"));
+    BRC_TRY_OR(cleanup, allocate_places(context, domain, 3 * n, &domain->face_centroid, "face centroids"));
     gather_faces(cells, n_threads, domain, area);
     brc_memory_trim();
     find_twins(n_threads, domain);

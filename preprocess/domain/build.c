@@ -5,6 +5,8 @@
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
 #include "../packing/beams.h"
+#include "../../host/base/ranks.h"
+#include "../cells/cells_ranks.h"
 #include "../cells/conform.h"
 #include "cracks.h"
 #include "describe.h"
@@ -95,6 +97,22 @@ static brc_status take_points(brc_context *context, const brc_build_request *req
     return BRC_OK;
 }
 
+/* Who has the cells then. */
+static brc_together together_of(const brc_build_request *request)
+{
+    bool apart = request->together == BRC_APART && request->n_cracks == 0;
+    for (int32_t k = 0; k < request->n_limits; ++k)
+        apart = apart && !brc_quality_is_of_directions(request->limits[k].number);
+    return request->together == BRC_APART && !apart ? BRC_TOGETHER : request->together;
+}
+
+/* What building holds here of what it holds where one rank does all of it: 0.2 have all of several machines, the rest
+ * lies apart (bench/results/2026-11-27-ranks-apart.md). */
+static double share_of(const brc_build_request *request)
+{
+    return together_of(request) == BRC_APART ? 0.2 + 0.8 / brc_ranks_count() : 1.0;
+}
+
 /* Everything known before a seed is placed: solid, walls, grid. What is held is the caller's to free in any case. */
 static brc_status plan(brc_context *context, const brc_build_request *request, work *w)
 {
@@ -111,7 +129,8 @@ static brc_status plan(brc_context *context, const brc_build_request *request, w
         if (n > 1e12)
             return BRC_FAIL(context, BRC_BAD_INPUT, "fill: a spacing of %g m gives %.3g elements; use larger cells",
                             brc_fill_spacing(w->solid, &request->fill), n);
-        BRC_TRY(brc_estimate_check_memory(context, n, brc_estimate_bytes(w->solid, request, n) / 2.0));
+        BRC_TRY(
+            brc_estimate_check_memory(context, n, share_of(request) * brc_estimate_bytes(w->solid, request, n) / 2.0));
         w->n = (int64_t)fmax(1.0, n);
     }
     w->spacing = cbrt(brc_solid_volume(w->solid, NULL) / (double)w->n);
@@ -121,7 +140,8 @@ static brc_status plan(brc_context *context, const brc_build_request *request, w
         BRC_TRY(brc_grid_plan(context, &request->fill, &w->walls, w->n_threads, &w->grid));
         w->n = w->grid.n_inside;
     }
-    return brc_estimate_check_memory(context, (double)w->n, brc_estimate_bytes(w->solid, request, (double)w->n));
+    return brc_estimate_check_memory(context, (double)w->n,
+                                     share_of(request) * brc_estimate_bytes(w->solid, request, (double)w->n));
 }
 
 brc_status brc_domain_estimate(brc_context *context, const brc_build_request *request, int64_t *n_elements,
@@ -266,7 +286,7 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
         snprintf(what, sizeof what, "Lloyd sweep %d of %d", sweep + 1, request->fill.lloyd_sweeps);
         BRC_TRY_OR(cleanup, brc_conform_walls(context, w->position, w->n, w->spacing, false, w->n_threads, &w->walls));
         BRC_TRY_OR(cleanup, brc_cells_relax(context, w->position, w->n, &w->walls, w->spacing, w->n_threads,
-                                            request->together, what));
+                                            request->together != BRC_ALONE, what));
     }
     if (request->fill.kind != BRC_FILL_POINTS) /* those are as given */
         BRC_TRY_OR(cleanup, brc_edges_place(context, &w->walls, w->spacing, request->fill.spread, request->fill.seed,
@@ -275,8 +295,8 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
     domain->position = w->position;
     domain->n_elements = w->n;
     w->position = NULL;
-    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, request->together,
-                                          &w->walls, &cells));
+    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads,
+                                          together_of(request), &w->walls, &cells));
     BRC_TRY_OR(cleanup, brc_half_edges_build(context, &cells, threshold, w->n_threads, domain));
     BRC_TRY_OR(cleanup, brc_conform_check(context, &w->walls, w->spacing, w->n_threads, domain));
     status = name_walls(context, w->solid, domain);
@@ -319,6 +339,17 @@ static brc_status set_regions(brc_context *context, const brc_build_request *req
     return BRC_OK;
 }
 
+/* Box and worst cases over the cells of all ranks. */
+static brc_status measure_among_ranks(brc_context *context, brc_domain *domain)
+{
+    if (!domain->here) return BRC_OK;
+    BRC_TRY(brc_ranks_least(context, 3, domain->bounds[0]));
+    BRC_TRY(brc_ranks_most(context, 3, domain->bounds[1]));
+    BRC_TRY(brc_ranks_most(context, 1, &domain->quality.closure_worst));
+    BRC_TRY(brc_ranks_least(context, 1, &domain->quality.support_smallest));
+    return brc_cells_bring_free_corners(context, domain);
+}
+
 /* Everything named or measured in posed coordinates. */
 static brc_status finish(brc_context *context, const work *w, brc_domain *domain)
 {
@@ -331,6 +362,7 @@ static brc_status finish(brc_context *context, const work *w, brc_domain *domain
         brc_log(context, BRC_LOG_INFO, "%d cracks cut %lld bonds", request->n_cracks, (long long)n_cut);
     }
     brc_quality_measure(domain, w->n_threads);
+    BRC_TRY(measure_among_ranks(context, domain));
     if (domain->element_kind == BRC_ELEMENT_CELL) BRC_TRY(check_volume(context, w, domain));
     brc_features_warn(context, w->solid, domain->quality.mean_spacing, domain);
     BRC_TRY(set_regions(context, request, domain));

@@ -147,6 +147,14 @@ typedef struct brc_quality_limit {
     double warn, refuse; /* beyond (above, or below for numbers where less is worse) */
 } brc_quality_limit;
 
+/* Which of several ranks (host/base/ranks.h) compute cells, and who has them then. */
+typedef enum brc_together {
+    BRC_ALONE,    /* this one computes all */
+    BRC_TOGETHER, /* all, each a range of runs, and all get all of them */
+    BRC_APART     /* all, and corners and shared faces stay where they were computed (domain.h, here); only of cells,
+                   * without     cracks and limits of directions: else as BRC_TOGETHER */
+} brc_together;
+
 typedef struct brc_build_request {
     brc_shape shape;
     brc_fill fill;
@@ -169,8 +177,8 @@ typedef struct brc_build_request {
     const double *points;       /* [n_points][3] borrowed [m] */
     const double *radii;        /* [n_points] borrowed [m]; NULL: points without radii */
     int32_t n_threads;          /* 0: as OpenMP decides. The result does not depend on it, bit for bit. */
-    bool together; /* all ranks (host/base/ranks.h) build it: each computes some of the cells, all get all of them */
-    int32_t body;  /* written into brc_domain.body */
+    brc_together together;
+    int32_t body; /* written into brc_domain.body */
 } brc_build_request;
 
 /* Build. BRC_BAD_INPUT (spread outside 0..1, an empty set, an unknown wall, fewer than 1 element, less than two cells

@@ -97,6 +97,13 @@ typedef struct brc_domain {
     int64_t *free_polygon_start; /* [n_free_faces + 1] */
     int32_t *free_polygon;       /* corners of free face f, counter-clockwise from outside: indices into vertex */
 
+    /* Where several ranks have a domain between them (domain_rows.h), this one has the shared faces of some cells, and
+     * corners, centroids and inertia of fewer: those arrays hold nothing of others. All NULL: it has all. */
+    uint8_t *here;       /* [n_elements] 1: it has the faces of the cell */
+    int64_t *home;       /* [ranks + 1] rank k has all of the cells home[k] to home[k + 1] */
+    double *free_corner; /* [free_polygon_start[n_free_faces]][3] places of the corners in free_polygon [m] */
+    uint32_t area_sum;   /* CRC-32 of all area vectors, in their order */
+
     int32_t n_sets;
     brc_set *sets; /* [n_sets] one set per wall first (cells: faces; spheres: elements, all "<wall>_layer" after them),
                     * then the requested ones; names are unique */
@@ -119,6 +126,16 @@ brc_status brc_domain_each_block(brc_domain *domain, bool down, brc_domain_visit
 brc_status brc_domain_take_pages(brc_context *context, brc_domain *domain);
 /* Append a copy of the name to the walls; wall_name has room for it. BRC_NO_MEMORY. */
 brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name);
+/* The shared faces of element e are here. */
+static inline bool brc_domain_has(const brc_domain *domain, int64_t e)
+{
+    return !domain->here || domain->here[e];
+}
+/* Place of corner k of free_polygon. */
+static inline const double *brc_domain_free_corner(const brc_domain *domain, int64_t k)
+{
+    return domain->free_corner ? domain->free_corner + 3 * k : domain->vertex + 3 * (int64_t)domain->free_polygon[k];
+}
 /* Index of the named set, -1 when there is none. */
 int32_t brc_domain_find_set(const brc_domain *domain, const char *name);
 /* Closure of element e: |sum of its face area vectors| over its total face area [-]. */

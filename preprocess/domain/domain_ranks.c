@@ -1,6 +1,8 @@
 /* The file that ranks map holds the struct, then each block behind its head; pointers are places in it, and NULL is 0,
  * where the struct is. Pages of a domain file have places there, but nothing is in them: they are laid over. */
 #include "domain_ranks.h"
+#include "domain_rows.h"
+#include "../cells/cells_ranks.h"
 
 #include "../../host/base/log.h"
 #include "../../host/base/memory.h"
@@ -133,7 +135,7 @@ static brc_status find_domain(brc_context *context, brc_machine_memory *memory, 
     return BRC_OK;
 }
 
-brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *done)
+static brc_status share(brc_context *context, brc_domain **domain, bool *done)
 {
     const bool first = *domain != NULL;
     int file = -1;
@@ -167,5 +169,89 @@ brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *don
     }
 cleanup:
     brc_domain_free(&own);
+    return status;
+}
+
+/* ---- what each rank keeps for itself ---- */
+
+/* Its own cells, where ranks have the domain between them. */
+typedef struct kept {
+    uint8_t *here;
+    int64_t *home;
+    void *part[BRC_DOMAIN_PARTS];
+} kept;
+
+static kept take_off(brc_domain *d)
+{
+    kept k = {d->here, d->home, {NULL}};
+    void **part[BRC_DOMAIN_PARTS];
+    brc_domain_parts(d, part);
+    for (int p = 0; p < BRC_DOMAIN_PARTS; ++p) {
+        k.part[p] = *part[p];
+        *part[p] = NULL;
+    }
+    d->here = NULL;
+    d->home = NULL;
+    return k;
+}
+
+static void put_on(kept k, brc_domain *d)
+{
+    void **part[BRC_DOMAIN_PARTS];
+    brc_domain_parts(d, part);
+    for (int p = 0; p < BRC_DOMAIN_PARTS; ++p)
+        *part[p] = k.part[p];
+    d->here = k.here;
+    d->home = k.home;
+}
+
+/* All ranks: which of them are the first of their machine [count]. */
+static brc_status find_firsts(brc_context *context, int32_t *is_first)
+{
+    const brc_ranks_place here = brc_ranks_here();
+    const int32_t first = here.local == 0;
+    BRC_LOCAL(context, here.count, int64_t, ones, "ranks");
+    for (int32_t k = 0; k < here.count; ++k)
+        ones[k] = 1;
+    return brc_ranks_gather_all(context, &first, sizeof first, ones, is_first);
+}
+
+/* Homes, which the first ranks of machines know by their number among them, by their number among all. */
+static brc_status name_homes(brc_context *context, const int32_t *is_first, brc_domain *d)
+{
+    const int32_t count = brc_ranks_count();
+    int32_t n = 0;
+    int64_t *home;
+    for (int32_t k = 0; k < count; ++k)
+        n += is_first[k];
+    BRC_TRY(BRC_ALLOCATE(context, &home, count + 1, "ranks"));
+    for (int32_t k = 0, at = 0; k < count; ++k)
+        home[k + 1] = is_first[k] ? brc_elements_of_rank(d->n_elements, at++, n).end : home[k];
+    brc_memory_free(d->home);
+    d->home = home;
+    return BRC_OK;
+}
+
+brc_status brc_domain_share(brc_context *context, brc_domain **domain, bool *done)
+{
+    kept own = {NULL};
+    const bool apart = *domain && (*domain)->here;
+    BRC_LOCAL(context, brc_ranks_count(), int32_t, is_first, "ranks");
+    BRC_TRY(find_firsts(context, is_first));
+    if (apart) own = take_off(*domain);
+    brc_status status = share(context, domain, done);
+    if (apart && *domain) put_on(own, *domain);
+    BRC_TRY(status);
+    int64_t any = apart;
+    BRC_TRY(brc_ranks_reduce(context, BRC_SUM, 1, &any));
+    if (any == 0) return BRC_OK;
+    if (*done) {
+        if (!apart) BRC_TRY(brc_domain_make_room(context, *domain));
+        return name_homes(context, is_first, *domain);
+    }
+    if (!apart) return BRC_OK; /* builds it whole */
+    brc_ranks_narrow();
+    status = brc_domain_bring_whole(context, *domain);
+    brc_ranks_widen();
     return status;
 }

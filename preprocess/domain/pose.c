@@ -58,45 +58,73 @@ static void turn_tensor(const double m[3][3], double t[6])
     }
 }
 
+/* Elements [first, end) of which all is here; while a domain is built they are a range. */
+typedef struct range {
+    int64_t first, end;
+} range;
+
+static range range_here(const brc_domain *domain)
+{
+    range r = {0, domain->n_elements};
+    while (r.first < r.end && !brc_domain_has(domain, r.first))
+        ++r.first;
+    while (r.end > r.first && !brc_domain_has(domain, r.end - 1))
+        --r.end;
+    return r;
+}
+
 /* From the corners of cells, or the spheres. */
-static void set_bounds(brc_domain *domain, int64_t n_vertices)
+static void set_bounds(brc_domain *domain, range here)
 {
     const bool cells = domain->element_kind == BRC_ELEMENT_CELL;
     const double *x = cells ? domain->vertex : domain->position;
+    const int64_t first = cells ? domain->vertex_start[here.first] : 0,
+                  end = cells ? domain->vertex_start[here.end] : domain->n_elements;
     for (int d = 0; d < 3; ++d) {
         domain->bounds[0][d] = HUGE_VAL;
         domain->bounds[1][d] = -HUGE_VAL;
     }
-    for (int64_t p = 0; p < (cells ? n_vertices : domain->n_elements); ++p)
+    for (int64_t p = first; p < end; ++p)
         for (int d = 0; d < 3; ++d) {
             const double r = cells ? 0.0 : domain->radius[p];
             domain->bounds[0][d] = fmin(domain->bounds[0][d], x[3 * p + d] - r);
             domain->bounds[1][d] = fmax(domain->bounds[1][d], x[3 * p + d] + r);
         }
+    for (int d = 0; d < 6; ++d)
+        domain->bounds[d / 3][d % 3] += 0.0; /* 0 of either sign: which one is met first depends on the ranks */
+}
+
+/* Corners and shared faces of cells that are here. */
+static void pose_cells(const double m[3][3], const double origin[3], const double translation[3], range here,
+                       bool rotate, brc_domain *d)
+{
+    const int64_t h = d->row_start[here.first], n = d->row_start[here.end] - h, v = d->vertex_start[here.first];
+    move(m, origin, translation, d->face_centroid + 3 * h, n, rotate);
+    move(m, origin, translation, d->vertex + 3 * v, d->vertex_start[here.end] - v, rotate);
+    if (rotate) turn(m, d->area_vector + 3 * h, n);
 }
 
 void brc_pose_apply(const double origin[3], const double rotation[3], const double translation[3], brc_domain *domain)
 {
     const bool cells = domain->element_kind == BRC_ELEMENT_CELL;
-    const int64_t n = domain->n_elements, n_vertices = cells ? domain->vertex_start[n] : 0;
+    const int64_t n = domain->n_elements;
+    const range here = range_here(domain);
     const bool rotate = rotation[0] != 0.0 || rotation[1] != 0.0 || rotation[2] != 0.0;
     const bool translate = translation[0] != 0.0 || translation[1] != 0.0 || translation[2] != 0.0;
     double m[3][3];
     brc_pose_matrix(rotation, m);
     if (rotate || translate) {
         move(m, origin, translation, domain->position, n, rotate);
-        move(m, origin, translation, domain->centroid, n, rotate);
+        move(m, origin, translation, domain->centroid + 3 * here.first, here.end - here.first, rotate);
     }
     if ((rotate || translate) && cells) {
-        move(m, origin, translation, domain->face_centroid, domain->n_half_edges, rotate);
+        pose_cells(m, origin, translation, here, rotate, domain);
         move(m, origin, translation, domain->free_centroid, domain->n_free_faces, rotate);
-        move(m, origin, translation, domain->vertex, n_vertices, rotate);
     }
     if (rotate && cells) { /* the inertia of a sphere is the same whichever way it is turned */
-        turn(m, domain->area_vector, domain->n_half_edges);
         turn(m, domain->free_area_vector, domain->n_free_faces);
-        for (int64_t e = 0; e < n; ++e)
+        for (int64_t e = here.first; e < here.end; ++e)
             turn_tensor(m, domain->inertia + 6 * e);
     }
-    set_bounds(domain, n_vertices);
+    set_bounds(domain, here);
 }

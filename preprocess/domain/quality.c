@@ -208,6 +208,7 @@ void brc_quality_measure(brc_domain *domain, int n_threads)
     double worst = 0.0, least = HUGE_VAL;
 #pragma omp parallel for schedule(static) num_threads(n_threads) reduction(max : worst) reduction(min : least)
     for (int64_t e = 0; e < domain->n_elements; ++e) {
+        if (!brc_domain_has(domain, e)) continue;
         worst = fmax(worst, brc_domain_closure(domain, e));
         least = fmin(least, support(domain, e));
     }

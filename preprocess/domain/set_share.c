@@ -87,7 +87,7 @@ double brc_predicate_share(const brc_predicate *where, const brc_domain *domain,
                            double centroid[3])
 {
     const double *whole = domain->free_area_vector + 3 * face, slack = BRC_SET_SLACK * domain->quality.mean_spacing;
-    const int32_t *corner = domain->free_polygon + domain->free_polygon_start[face];
+    const int64_t first = domain->free_polygon_start[face];
     const int n = (int)(domain->free_polygon_start[face + 1] - domain->free_polygon_start[face]);
     const double size = sqrt(dot(whole, whole));
     brc_predicate rest = *where;
@@ -102,7 +102,7 @@ double brc_predicate_share(const brc_predicate *where, const brc_domain *domain,
     for (int p = 0; p < n_planes; ++p) {
         int inside = 0;
         for (int k = 0; k < n; ++k)
-            inside += dot(planes[p].normal, domain->vertex + 3 * (int64_t)corner[k]) - planes[p].level >= -slack;
+            inside += dot(planes[p].normal, brc_domain_free_corner(domain, first + k)) - planes[p].level >= -slack;
         if (inside == 0) return 0;
         is_cut |= inside < n;
     }
@@ -111,9 +111,9 @@ double brc_predicate_share(const brc_predicate *where, const brc_domain *domain,
     double all = 0, part = 0, moment[3] = {0}, ignored[3] = {0};
     for (int k = 2; k < n; ++k) {
         double x[CORNERS][3];
-        const int32_t ends[3] = {corner[0], corner[k - 1], corner[k]};
+        const int64_t ends[3] = {first, first + k - 1, first + k};
         for (int i = 0; i < 3; ++i)
-            memcpy(x[i], domain->vertex + 3 * (int64_t)ends[i], sizeof x[i]);
+            memcpy(x[i], brc_domain_free_corner(domain, ends[i]), sizeof x[i]);
         all += add_fan(x, 3, normal, ignored);
         int m = 3;
         for (int p = 0; p < n_planes && m > 0; ++p)

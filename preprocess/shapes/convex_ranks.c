@@ -4,6 +4,7 @@
 
 #include "../../host/base/memory.h"
 #include "../../host/base/ranks.h"
+#include "../cells/cells_ranks.h"
 #include "convex_internal.h"
 
 #include <string.h>
@@ -55,11 +56,15 @@ static void append(const sizes *cells, const sizes *more, const brc_convex *from
         to->loop_start[cells->faces + f] = (int32_t)(cells->loops + from->loop_start[f]);
 }
 
-/* Cells [first, end) are this rank's. *n_loops: of all cells. */
-static brc_status place_loops(brc_context *context, const brc_domain *d, int64_t first, int64_t end, brc_convex *c,
-                              int64_t *n_loops)
+/* Cells [first, end). */
+typedef struct range {
+    int64_t first, end;
+} range;
+
+/* Loops of cells `own` are placed by this rank. *n_loops: of all cells. */
+static brc_status place_loops(brc_context *context, const brc_domain *d, range own, brc_convex *c, int64_t *n_loops)
 {
-    const int64_t from = brc_convex_face_start(d, first), to = brc_convex_face_start(d, end),
+    const int64_t from = brc_convex_face_start(d, own.first), to = brc_convex_face_start(d, own.end),
                   n = brc_convex_face_start(d, d->n_elements);
     int64_t sum = 0;
     *n_loops = 0;
@@ -73,6 +78,79 @@ static brc_status place_loops(brc_context *context, const brc_domain *d, int64_t
     return BRC_OK;
 }
 
+/* ---- cells that ranks have between them (domain.h, here) ---- */
+
+/* Among the first ranks of machines: what cells have in an array, in which those of cell e begin at start(e), comes
+ * from those that have made it. */
+static brc_status bring(brc_context *context, const brc_domain *d, int64_t (*start)(const brc_domain *, int64_t),
+                        int64_t bytes, void *all)
+{
+    const int32_t count = brc_ranks_count();
+    const int64_t mine = start(d, brc_elements_of_rank(d->n_elements, brc_ranks_mine(), count).first);
+    BRC_LOCAL(context, count, int64_t, n_of, "polyhedra of ranks");
+    for (int32_t k = 0; k < count; ++k) {
+        const brc_run_range home = brc_elements_of_rank(d->n_elements, k, count);
+        n_of[k] = start(d, home.end) - start(d, home.first);
+    }
+    return brc_ranks_gather_all(context, (char *)all + mine * bytes, bytes, n_of, all);
+}
+
+static int64_t start_of_corners(const brc_domain *d, int64_t e)
+{
+    return d->vertex_start[e];
+}
+
+static int64_t start_of_one(const brc_domain *d, int64_t e)
+{
+    (void)d;
+    return e;
+}
+
+static brc_status bring_all_but_loops(brc_context *context, const brc_domain *d, brc_convex *c)
+{
+    for (int64_t e = 0; e <= d->n_elements; ++e) {
+        c->corner_start[e] = (int32_t)d->vertex_start[e];
+        c->face_start[e] = (int32_t)brc_convex_face_start(d, e);
+    }
+    BRC_TRY(bring(context, d, start_of_corners, 3 * sizeof *c->corner, c->corner));
+    BRC_TRY(bring(context, d, brc_convex_face_start, 4 * sizeof *c->plane, c->plane));
+    BRC_TRY(bring(context, d, brc_convex_face_start, sizeof *c->loop_start, c->loop_start + 1));
+    return bring(context, d, start_of_one, sizeof *c->radius, c->radius);
+}
+
+static brc_status bring_loops(brc_context *context, const brc_domain *d, brc_convex *c)
+{
+    const int32_t count = brc_ranks_count();
+    int64_t first = 0;
+    BRC_LOCAL(context, count, int64_t, n_of, "polyhedra of ranks");
+    for (int32_t k = 0; k < count; ++k) {
+        const brc_run_range home = brc_elements_of_rank(d->n_elements, k, count);
+        const int64_t from = c->loop_start[brc_convex_face_start(d, home.first)];
+        n_of[k] = c->loop_start[brc_convex_face_start(d, home.end)] - from;
+        if (k == brc_ranks_mine()) first = from;
+    }
+    return brc_ranks_gather_all(context, c->loop + first, sizeof *c->loop, n_of, c->loop);
+}
+
+/* By the first rank of each machine; the others wait in the next call of all. */
+static brc_status among_firsts(brc_context *context, const brc_domain *d, brc_convex *c,
+                               brc_status (*what)(brc_context *, const brc_domain *, brc_convex *))
+{
+    if (!d->here || brc_ranks_here().local > 0) return BRC_OK;
+    brc_ranks_narrow();
+    const brc_status status = what(context, d, c);
+    brc_ranks_widen();
+    return status;
+}
+
+/* Which cells this rank makes. */
+static range cells_of(const brc_domain *d, const brc_common_memory *memory)
+{
+    const int64_t n = d->n_elements;
+    if (d->here) return (range){d->home[brc_ranks_mine()], d->home[brc_ranks_mine() + 1]};
+    return (range){n * memory->part / memory->parts, n * (memory->part + 1) / memory->parts};
+}
+
 brc_status brc_convex_share(brc_context *context, const brc_domain *domain, const brc_convex *more, int n_threads,
                             brc_convex_common *out)
 {
@@ -84,13 +162,23 @@ brc_status brc_convex_share(brc_context *context, const brc_domain *domain, cons
     *out = made;
     BRC_TRY(begin_all(context, &cells, &behind, &made));
     const brc_common_memory *const memory = made.memory;
-    const int64_t first = n * memory->part / memory->parts, end = n * (memory->part + 1) / memory->parts;
-    brc_status status = spheres ? BRC_OK : brc_convex_measure_cells(context, domain, first, end, n_threads, &made.all);
+    const range own = cells_of(domain, memory), all = {0, n}, none = {n, n};
+    brc_status status =
+        spheres ? BRC_OK : brc_convex_measure_cells(context, domain, own.first, own.end, n_threads, &made.all);
     BRC_TRY(brc_ranks_agree(context, status));
-    if (!spheres) BRC_TRY(place_loops(context, domain, first, end, &made.all, &cells.loops));
+    BRC_TRY(brc_ranks_agree(context, among_firsts(context, domain, &made.all, bring_all_but_loops)));
+    if (!spheres)
+        BRC_TRY(place_loops(context, domain,
+                            !domain->here                 ? own
+                            : brc_ranks_here().local == 0 ? all
+                                                          : none,
+                            &made.all, &cells.loops));
+    if (domain->here) BRC_TRY(brc_ranks_agree(context, BRC_OK)); /* all are placed */
     BRC_TRY(begin(context, cells.loops + behind.loops, sizeof *made.all.loop, &made.memory[BRC_CONVEX_LOOP],
                   &made.all.loop));
-    if (!spheres) status = brc_convex_outline_cells(context, domain, first, end, n_threads, &made.all);
+    if (!spheres) status = brc_convex_outline_cells(context, domain, own.first, own.end, n_threads, &made.all);
+    if (domain->here) BRC_TRY(brc_ranks_agree(context, status));
+    if (status == BRC_OK) status = among_firsts(context, domain, &made.all, bring_loops);
     if (behind.n && memory->part == memory->parts - 1) append(&cells, &behind, more, &made.all);
     BRC_TRY(brc_ranks_agree(context, status));
     *out = made;

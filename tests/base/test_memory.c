@@ -65,6 +65,31 @@ static void whole_pages_of_what_is_forgotten_are_gone(void **state)
     brc_memory_free(block);
 }
 
+/* More than this machine has, of which a page is written, is no more than a page. */
+static void sparse_blocks_take_what_is_written(void **state)
+{
+    enum { AT = 123 << 20, LENGTH = 1 << 16 };
+    const int64_t bytes = (int64_t)1 << 40, held = brc_memory_held();
+    char *block;
+    assert_int_equal(brc_memory_allocate_sparse(*state, (void **)&block, bytes, 1, "bytes"), BRC_OK);
+    assert_int_equal((uintptr_t)block % 64, 0);
+    assert_int_equal(brc_memory_block_bytes(block), bytes);
+    assert_int_equal(block[AT] + block[bytes - 1], 0);
+    brc_memory_free(block);
+    assert_int_equal(brc_memory_allocate_sparse(*state, (void **)&block, AT + LENGTH, 1, "bytes"), BRC_OK);
+    const int64_t before = brc_memory_sparse_resident(block);
+    memset(block + AT, 1, LENGTH);
+    const int64_t there = brc_memory_sparse_resident(block) - before;
+    assert_true(there >= LENGTH && there < 2 * LENGTH);
+    brc_memory_forget(block + AT, LENGTH);
+    assert_true(brc_memory_sparse_resident(block) <= before + LENGTH / 2);
+    assert_false(brc_memory_spill_sparse(block)); /* there is no folder */
+    brc_memory_free(block);
+    assert_int_equal(brc_memory_held(), held);
+    assert_int_equal(brc_memory_allocate_sparse(*state, (void **)&block, INT64_MAX, 8, "bytes"), BRC_NO_MEMORY);
+    assert_null(block);
+}
+
 static void resizing_keeps_the_first_bytes_and_zeroes_the_new(void **state)
 {
     brc_context *context = *state;
@@ -150,6 +175,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(blocks_are_zeroed_and_aligned, begin, end),
         cmocka_unit_test_setup_teardown(held_bytes_return_to_where_they_were, begin, end),
         cmocka_unit_test_setup_teardown(whole_pages_of_what_is_forgotten_are_gone, begin, end),
+        cmocka_unit_test_setup_teardown(sparse_blocks_take_what_is_written, begin, end),
         cmocka_unit_test_setup_teardown(resizing_keeps_the_first_bytes_and_zeroes_the_new, begin, end),
         cmocka_unit_test_setup_teardown(what_cannot_be_had_is_refused_with_its_name_and_size, begin, end),
         cmocka_unit_test_setup_teardown(overflow_and_negative_counts_are_refused, begin, end),

@@ -101,6 +101,30 @@ static void a_child_has_a_file_of_its_own(void **state)
     brc_memory_free(next);
 }
 
+/* A sparse block that is laid there keeps what it has; one part of a program names a folder of its own. */
+static void sparse_blocks_are_laid_in_the_file(void **state)
+{
+    char *block;
+    const char *const folder = getenv("BRECCIA_SPILL");
+    assert_int_equal(brc_memory_allocate_sparse(*state, (void **)&block, 4 * LONG, 1, "bytes"), BRC_OK);
+    assert_false(brc_spill_has(block));
+    memset(block + LONG, 1, LONG);
+    brc_spill_into("elsewhere");
+    assert_string_equal(brc_spill_folder(), "elsewhere");
+    brc_spill_into(folder);
+    assert_true(brc_memory_spill_sparse(block));
+    brc_spill_into(NULL);
+    assert_string_equal(brc_spill_folder(), folder);
+    memset(block + 3 * LONG, 2, LONG);
+    for (int k = 0; k < LONG; ++k) {
+        assert_int_equal(block[k] + block[2 * LONG + k], 0);
+        assert_int_equal(block[LONG + k], 1);
+        assert_int_equal(block[3 * LONG + k], 2);
+    }
+    assert_int_equal(brc_memory_block_bytes(block), 4 * LONG);
+    brc_memory_free(block);
+}
+
 static void more_than_the_disk_has_is_a_sentence(void **state)
 {
     brc_context *context = *state;
@@ -129,6 +153,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_folder_that_is_not_there_is_named, begin, end),
         cmocka_unit_test_setup_teardown(long_blocks_lie_in_the_file_and_are_zero_again, begin, end),
         cmocka_unit_test_setup_teardown(a_child_has_a_file_of_its_own, begin, end),
+        cmocka_unit_test_setup_teardown(sparse_blocks_are_laid_in_the_file, begin, end),
         cmocka_unit_test_setup_teardown(more_than_the_disk_has_is_a_sentence, begin, end),
         cmocka_unit_test_setup_teardown(nothing_with_a_name_is_left, begin, end),
     };

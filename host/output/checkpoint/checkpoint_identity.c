@@ -2,6 +2,7 @@
 #include "../seal.h"
 #include "../../base/log.h"
 #include "../../base/memory.h"
+#include "../../base/ranks.h"
 #include "../../base/version.h"
 #include "../../scene/scene_reader.h"
 #include <stdio.h>
@@ -23,6 +24,32 @@ static void name_device(const brc_assembly *a, char *text, size_t room)
     const brc_device_info *info = brc_device_get_info(brc_simulation_device(a->part[0]));
     snprintf(text, room, "%s: %s%s", info->selector, info->driver,
              brc_device_is_exact(brc_simulation_device(a->part[0])) ? ", exact" : "");
+}
+
+brc_status brc_checkpoint_sum_areas(brc_context *context, brc_domain *d)
+{
+    typedef struct part {
+        int64_t bytes;
+        uint32_t sum;
+    } part;
+    const int32_t count = brc_ranks_count();
+    if (!d->here) return BRC_OK;
+    BRC_LOCAL(context, count, part, parts, "sums of ranks");
+    BRC_LOCAL(context, count, int64_t, ones, "sums of ranks");
+    part own = {0};
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const int64_t bytes = 24 * (d->row_start[e + 1] - d->row_start[e]);
+        if (!d->here[e]) continue;
+        own.sum = brc_seal_sum(own.sum, d->area_vector + 3 * d->row_start[e], bytes);
+        own.bytes += bytes;
+    }
+    for (int32_t k = 0; k < count; ++k)
+        ones[k] = 1;
+    BRC_TRY(brc_ranks_gather_all(context, &own, sizeof own, ones, parts));
+    d->area_sum = 0;
+    for (int32_t k = 0; k < count; ++k)
+        d->area_sum = brc_seal_join(d->area_sum, parts[k].sum, parts[k].bytes);
+    return BRC_OK;
 }
 
 void brc_checkpoint_sums(const brc_assembly *a, int64_t *sums)
@@ -47,7 +74,10 @@ void brc_checkpoint_sums(const brc_assembly *a, int64_t *sums)
                    {d->free_centroid, 24 * f}};
         uint32_t sum = 0;
         for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
-            if (all[i].data) sum = brc_seal_sum(sum, all[i].data, all[i].bytes);
+            if (all[i].data == d->area_vector && d->here)
+                sum = brc_seal_join(sum, d->area_sum, all[i].bytes);
+            else if (all[i].data)
+                sum = brc_seal_sum(sum, all[i].data, all[i].bytes);
         for (int32_t i = 0; i < d->n_sets; ++i)
             sum = brc_seal_sum(sum, d->sets[i].members, 4 * d->sets[i].n_members);
         sums[k] = sum;

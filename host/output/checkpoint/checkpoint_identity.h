@@ -16,6 +16,8 @@ brc_status brc_checkpoint_scene(brc_context *context, const brc_scene *scene, ch
  * elements, bonds, and CRC-32 of what its domain is made of. scene: of brc_checkpoint_scene; sums: of
  * brc_checkpoint_sums. */
 void brc_checkpoint_identity_write(brc_h5 *h5, const brc_assembly *assembly, const char *scene, const int64_t *sums);
+/* All ranks, where they have just built a domain between them (domain.h, here): the sum over its area vectors. */
+brc_status brc_checkpoint_sum_areas(brc_context *context, brc_domain *domain);
 /* CRC-32 of the domain of every part: positions, volumes, bodies, regions, radii, neighbours, faces, sets. sums
  * [assembly->n]. */
 void brc_checkpoint_sums(const brc_assembly *assembly, int64_t *sums);

@@ -54,6 +54,7 @@ int brc_crack_surface_corners(const brc_domain *d, int64_t h, int room, int64_t 
 {
     const int64_t e = d->neighbour[d->twin[h]];
     const double *s = d->area_vector + 3 * h, *centre = d->face_centroid + 3 * h, area = sqrt(dot(s, s));
+    if (!brc_domain_has(d, e)) return 0; /* this rank does not write it */
     const double n[3] = {s[0] / area, s[1] / area, s[2] / area};
     double e1[3], e2[3], size = 0;
     around found[MOST_CORNERS];

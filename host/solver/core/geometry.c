@@ -1,5 +1,7 @@
 /* Device arrays that depend on the domain and the materials alone: connectivity, face geometry, least squares,
  * masses. */
+#include "../../../preprocess/domain/domain_rows.h"
+#include "../../base/ranks.h"
 #include "../../device/shares.h"
 #include "core_internal.h"
 #include "sym3.h"
@@ -119,15 +121,16 @@ brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refin
 #pragma omp parallel for schedule(static) reduction(+ : flat)
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
-        if (e < 0) continue;
+        if (e < 0 || !brc_domain_has(s->domain, e)) continue;
         double a[6], inverse[6];
         shape_matrix(s, e, weighted, a);
         const int spanned = brc_sym3_pseudo_inverse(a, least_span, inverse);
-        flat += spanned < 3;
+        flat += spanned < 3 && brc_domain_mine(s->domain, e);
         if (spanned == 3 && refine) refine(s, e, inverse);
         for (int c = 0; c < 6; ++c)
             blocks[((int64_t)(r / slice) * 6 + c) * slice + r % slice] = inverse[c];
     }
+    if (s->domain->here) BRC_TRY(brc_ranks_reduce(s->context, BRC_SUM, 1, &flat));
     if (flat)
         brc_log(
             s->context, BRC_LOG_WARNING,
@@ -149,8 +152,10 @@ static brc_status upload_masses(brc_simulation *s)
     if (s->core->inertia) {
         /* mean of the principal moments: the trace of the inertia tensor over 3 */
         for (int64_t e = 0; e < d->n_elements; ++e)
-            values[e] = s->elastic[s->material_of_element[e]].density *
-                        (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
+            if (brc_domain_mine(d, e))
+                values[e] = s->elastic[s->material_of_element[e]].density *
+                            (d->inertia[6 * e] + d->inertia[6 * e + 1] + d->inertia[6 * e + 2]) / 3;
+        if (d->here) BRC_TRY(brc_domain_elements(s->context, d, 1, values));
         BRC_TRY(brc_state_to_rows(s, s->core->inertia, values, 1, 1));
     }
     if (s->core->inv_volume) {

@@ -2,6 +2,7 @@
 #include "split.h"
 #include "look.h"
 #include "run_internal.h"
+#include "../../../preprocess/domain/domain_rows.h"
 #include "../../base/ranks.h"
 #include "../../device/shares.h"
 #include <math.h>
@@ -69,6 +70,26 @@ static brc_status share_rows(brc_simulation *s)
                                                              .neighbour = neighbour});
 }
 
+/* For what is made now: faces of cells whose rows this rank owns, and of those that their bonds reach; on other devices
+ * than the cpu, whose arrays are of all rows, of all. */
+static brc_status bring_cells(brc_simulation *s)
+{
+    const brc_domain *d = s->domain;
+    const brc_layout *layout = s->layout;
+    const bool all = brc_device_get_info(s->device)->kind != BRC_DEVICE_CPU;
+    if (!d->here) return BRC_OK;
+    BRC_LOCAL(s->context, d->n_elements, uint8_t, wanted, "cells of a rank");
+    const brc_row_range own = brc_device_rows_here(s->device);
+    if (all) memset(wanted, 1, (size_t)d->n_elements);
+    for (int32_t r = own.first; r < own.end; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        if (e >= 0) wanted[e] = 1;
+        for (int64_t h = e < 0 ? 0 : d->row_start[e]; h < (e < 0 ? 0 : d->row_start[e + 1]); ++h)
+            wanted[d->neighbour[h]] = 1;
+    }
+    return brc_domain_bring(s->context, d, wanted);
+}
+
 brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, const brc_domain *domain,
                                  brc_device *device, brc_simulation **out)
 {
@@ -112,12 +133,14 @@ brc_status brc_simulation_create(brc_context *context, const brc_scene *scene, c
     brc_wants_make(scene, domain, s->layout, device, s->material_of_element, &s->wants);
     s->n_groups = s->wants.n_groups;
     BRC_TRY(share_rows(s));
+    BRC_TRY(bring_cells(s));
     if (s->model->create) BRC_TRY(s->model->create(s));
     BRC_TRY(brc_core_passes_make(s));
     BRC_TRY(brc_run_passes_make(s));
     BRC_TRY(brc_geometry_create(s));
     BRC_TRY(brc_simulation_fields_create(s));
     BRC_TRY(brc_effects_create(s));
+    if (domain->here) brc_domain_keep_home(domain);
     s->run->setup_seconds = brc_clock_s() - start;
     *out = s;
     s = NULL;

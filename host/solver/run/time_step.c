@@ -1,6 +1,7 @@
 /* The time step: 2 / omega_max by power iteration of M^-1 K with the scene's own force kernels (docs/notebook/theory.md
  * T5), or as given, or the papers' rule. */
 #include "../../base/random.h"
+#include "../../base/ranks.h"
 #include "run_internal.h"
 #include <math.h>
 
@@ -11,14 +12,17 @@ enum { MOST_ITERATIONS = 2000, WATCH = 20 };
 static const double settled = 2e-3, margin = 1.02;
 
 /* AGH19 eq. 39 and 40: min over bonds of 1/3 sqrt(m L0 / (E S)). */
-static double published_rule(const brc_simulation *s)
+static brc_status published_rule(const brc_simulation *s, double *out)
 {
     const brc_domain *d = s->domain;
     double smallest = INFINITY;
+    *out = 0;
+    if (brc_has_spheres(s)) return BRC_OK;
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b];
         const int64_t j = d->neighbour[h], i = d->neighbour[d->twin[h]];
         double length = 0, area = 0;
+        if (!brc_domain_has(d, i)) continue;
         for (int c = 0; c < 3; ++c) {
             const double r = d->position[3 * j + c] - d->position[3 * i + c];
             length += r * r;
@@ -30,7 +34,9 @@ static double published_rule(const brc_simulation *s)
         const double step = sqrt(a * b_mass / (a + b_mass) * sqrt(length) / (young * sqrt(area))) / 3;
         if (step < smallest) smallest = step;
     }
-    return isfinite(smallest) ? smallest : 0;
+    if (d->here) BRC_TRY(brc_ranks_least(s->context, 1, &smallest));
+    if (isfinite(smallest)) *out = smallest;
+    return BRC_OK;
 }
 
 /* Scratch of the iteration: displacement-like and rotation-like vectors. */
@@ -133,7 +139,8 @@ cleanup:
 
 brc_status brc_time_step_find(brc_simulation *s, const brc_stage *stage, brc_time_step *out)
 {
-    *out = (brc_time_step){.published = brc_has_spheres(s) ? 0 : published_rule(s)};
+    *out = (brc_time_step){.value = 0};
+    BRC_TRY(published_rule(s, &out->published));
     switch (stage->time_step_rule) {
     case BRC_TIME_STEP_FIXED:
         out->value = stage->time_step;

@@ -34,6 +34,9 @@ static void the_sum_is_the_crc_of_its_definition(void **state)
     (void)state;
     assert_int_equal(brc_seal_sum(0, "123456789", 9), 0xcbf43926);
     assert_int_equal(brc_seal_sum(brc_seal_sum(0, "12345", 5), "6789", 4), 0xcbf43926);
+    assert_int_equal(brc_seal_join(brc_seal_join(0, brc_seal_sum(0, "12345", 5), 5), brc_seal_sum(0, "6789", 4), 4),
+                     0xcbf43926);
+    assert_int_equal(brc_seal_join(0xcbf43926, 0, 0), 0xcbf43926);
 }
 
 static void a_sealed_file_is_told_from_one_cut_short_or_changed(void **state)

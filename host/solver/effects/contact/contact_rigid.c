@@ -1,4 +1,5 @@
 /* Cells of dlsm that have lost all their bonds, as rigid bodies (contact_rigid.cl). */
+#include "../../../../preprocess/domain/domain_rows.h"
 #include "../fracture/breaking.h"
 #include "../loads/loads.h"
 #include "contact_internal.h"
@@ -55,10 +56,11 @@ brc_status brc_contact_rigid_create(brc_simulation *s)
     BRC_LOCAL(s->context, 6 * d->n_elements, double, inertia, "inertia of cells");
     BRC_LOCAL(s->context, 4 * d->n_elements, double, upright, "orientations of cells");
     for (int64_t e = 0; e < d->n_elements; ++e) {
-        for (int k = 0; k < 6; ++k)
+        for (int k = 0; k < 6 && brc_domain_mine(d, e); ++k)
             inertia[6 * e + k] = d->inertia[6 * e + k] * s->elastic[s->material_of_element[e]].density;
         upright[4 * e] = 1;
     }
+    if (d->here) BRC_TRY(brc_domain_elements(s->context, d, 6, inertia));
     BRC_TRY(brc_state_to_rows(s, c->inertia, inertia, 6, 1));
     return brc_state_to_rows(s, c->turned, upright, 4, 0);
 }

@@ -1,5 +1,6 @@
 /* What contact knows of the elements from the start: where they are, how far they reach, of what they are, which are
  * exposed; and the laws. */
+#include "../../../../preprocess/domain/domain_rows.h"
 #include "contact_internal.h"
 #include "../strikers/striker_contact.h"
 #include <math.h>
@@ -89,6 +90,19 @@ static double reach_of(const brc_domain *d, int64_t e)
     return sqrt(most);
 }
 
+/* Of rows. */
+static brc_status find_reaches(const brc_simulation *s, double *value)
+{
+    const brc_domain *d = s->domain;
+    BRC_LOCAL(s->context, d->n_elements, double, reach, "radii about elements");
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        if (brc_domain_mine(d, e)) reach[e] = reach_of(d, e);
+    if (d->here) BRC_TRY(brc_domain_elements(s->context, d, 1, reach));
+    for (int32_t r = 0; r < s->layout->n_rows; ++r)
+        value[r] = s->layout->element_of_row[r] < 0 ? 0 : reach[s->layout->element_of_row[r]];
+    return BRC_OK;
+}
+
 /* Exposed from the start: cells with a free face. Spheres within two radii of a wall of the packing (its sets
  * "<wall>_layer"), since those behind the first row are reached between its spheres, and those with fewer than four
  * bonds; all of a body without walls. */
@@ -167,8 +181,7 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     for (int32_t p = 0; p < np; ++p)
         value[n + p] = 0;
     BRC_TRY(brc_upload_state(s, c->size_of, value, n + np));
-    for (int32_t r = 0; r < n; ++r)
-        value[r] = layout->element_of_row[r] < 0 ? 0 : reach_of(d, layout->element_of_row[r]);
+    BRC_TRY(find_reaches(s, value));
     BRC_TRY(brc_upload_state(s, c->bounding_radius, value, n));
     for (int32_t r = 0; r < n; ++r)
         for (int k = 0; k < 3; ++k)

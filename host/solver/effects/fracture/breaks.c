@@ -1,6 +1,8 @@
 /* What broke, read from the device: events, damage, fragments. */
 #include "bond_area.h"
 #include "fracture_internal.h"
+#include "../../../../preprocess/domain/domain_rows.h"
+#include "../../core/sym3.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -108,7 +110,8 @@ static void place_in_time(const brc_breaking *f, brc_break *event)
 
 /* ---- events ---- */
 
-static void describe(const brc_simulation *s, int64_t h, brc_break *event)
+/* face: area vector and centroid of cells. */
+static void describe(const brc_simulation *s, int64_t h, const double face[6], brc_break *event)
 {
     const brc_domain *d = s->domain;
     const int64_t j = d->neighbour[h], i = d->neighbour[d->twin[h]];
@@ -116,16 +119,30 @@ static void describe(const brc_simulation *s, int64_t h, brc_break *event)
     event->element_i = (int32_t)i;
     event->element_j = (int32_t)j;
     for (int c = 0; c < 3; ++c) {
-        event->position[c] = d->element_kind == BRC_ELEMENT_CELL
-                                 ? d->face_centroid[3 * h + c]
-                                 : 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
+        event->position[c] =
+            d->element_kind == BRC_ELEMENT_CELL ? face[3 + c] : 0.5 * (d->position[3 * i + c] + d->position[3 * j + c]);
         event->normal[c] = d->position[3 * j + c] - d->position[3 * i + c];
         length += event->normal[c] * event->normal[c];
     }
     for (int c = 0; c < 3; ++c)
         event->normal[c] /= sqrt(length);
-    event->area = brc_bond_area(d, event->bond);
+    event->area = d->element_kind == BRC_ELEMENT_CELL ? brc_norm3(face) : brc_bond_area(d, event->bond);
     place_in_time(s->fracture, event);
+}
+
+static brc_status describe_all(brc_simulation *s, int64_t n)
+{
+    const brc_domain *d = s->domain;
+    brc_break *events = s->fracture->events;
+    const bool cells = d->element_kind == BRC_ELEMENT_CELL;
+    BRC_LOCAL(s->context, n, int32_t, half_edge, "broken bonds");
+    BRC_LOCAL(s->context, 6 * n, double, face, "broken bonds");
+    for (int64_t k = 0; k < n; ++k)
+        half_edge[k] = d->bond_half_edge[events[k].bond];
+    if (cells) BRC_TRY(brc_domain_faces(s->context, d, n, half_edge, face));
+    for (int64_t k = 0; k < n; ++k)
+        describe(s, half_edge[k], face + 6 * k, &events[k]);
+    return BRC_OK;
 }
 
 static brc_status collect(brc_simulation *s, int64_t n)
@@ -147,8 +164,8 @@ static brc_status collect(brc_simulation *s, int64_t n)
         brc_break *event = &f->events[at++];
         *event = (brc_break){
             .step = e.step[k], .mode = e.mode[k], .bond = d->bond[h], .stress = e.stress[k], .energy = e.energy[k]};
-        describe(s, h, event);
     }
+    BRC_TRY_OR(cleanup, describe_all(s, at));
     f->n_events = at;
     if (at > 0) qsort(f->events, (size_t)at, sizeof *f->events, by_step_and_bond);
 cleanup:

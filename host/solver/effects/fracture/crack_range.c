@@ -71,12 +71,15 @@ static void stretch(extent *x, const double *point, double reach)
 static extent extent_of(const brc_domain *d, int32_t body)
 {
     extent x = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
+    const bool corners = d->vertex && !d->here; /* ranks have one body between them */
+    for (int k = 0; d->here && k < 2; ++k)
+        stretch(&x, d->bounds[k], 0);
     for (int64_t e = 0; e < d->n_elements; ++e) {
         if (d->body[e] != body) continue;
         x.size += size_of(d, e);
         ++x.n;
         if (d->element_kind == BRC_ELEMENT_SPHERE) stretch(&x, d->position + 3 * e, d->radius[e]);
-        for (int64_t v = d->vertex ? d->vertex_start[e] : 0; d->vertex && v < d->vertex_start[e + 1]; ++v)
+        for (int64_t v = corners ? d->vertex_start[e] : 0; corners && v < d->vertex_start[e + 1]; ++v)
             stretch(&x, d->vertex + 3 * v, 0);
     }
     x.size /= (double)(x.n > 0 ? x.n : 1);

@@ -1,5 +1,6 @@
 #include "strengths.h"
 #include "../../../../preprocess/csv.h"
+#include "../../../../preprocess/domain/domain_rows.h"
 #include "../../../base/file.h"
 #include "../../../base/log.h"
 #include "../../../base/memory.h"
@@ -113,13 +114,29 @@ static double quantile(const brc_scatter *scatter, double p)
     return a->factor + (b->factor - a->factor) * ((p - a->below) / (b->below - a->below));
 }
 
-static double draw(const brc_scatter *scatter, uint64_t seed, const brc_domain *d, int64_t bond)
+/* Volumes of bonds that ranks have between them; *out [n_bonds] stays NULL where no scatter asks, or all are here. */
+static brc_status bring_volumes(brc_context *context, const brc_scene *scene, const brc_domain *d, double **out)
+{
+    bool asked = false;
+    for (int32_t m = 0; m < scene->n_materials; ++m)
+        asked = asked || scene->materials[m].scatter.volume > 0;
+    if (!d->here || !asked) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(context, out, d->n_bonds, "volumes of bonds"));
+    for (int64_t b = 0; b < d->n_bonds; ++b)
+        if (brc_domain_mine(d, d->neighbour[d->twin[d->bond_half_edge[b]]])) (*out)[b] = brc_strengths_volume(d, b);
+    return brc_domain_bonds(context, d, *out);
+}
+
+/* bond_volume: of all bonds, or NULL: the domain has their faces. */
+static double draw(const brc_scatter *scatter, uint64_t seed, const brc_domain *d, int64_t bond,
+                   const double *bond_volume)
 {
     const int64_t h = d->bond_half_edge[bond];
     double p[4];
     brc_random_uniform4(seed, BRC_RANDOM_STRENGTH, (uint64_t)d->neighbour[d->twin[h]], (uint64_t)d->neighbour[h], p);
     if (scatter->kind == BRC_SCATTER_TABLE) return quantile(scatter, p[0]);
-    const double volume = scatter->volume > 0 ? scatter->volume / brc_strengths_volume(d, bond) : 1;
+    const double volume =
+        scatter->volume > 0 ? scatter->volume / (bond_volume ? bond_volume[bond] : brc_strengths_volume(d, bond)) : 1;
     return pow(-log1p(-p[0]) * volume, 1 / scatter->modulus);
 }
 
@@ -180,14 +197,14 @@ static double bond_energy(const brc_interface *at, const brc_material *weak)
 }
 
 static void fill_bond(const brc_scene *scene, const brc_domain *d, int64_t bond, const brc_material *weak,
-                      const brc_interface *at, const double *from_file, brc_strengths *out)
+                      const brc_interface *at, const double *from_file, const double *bond_volume, brc_strengths *out)
 {
     const double factor = at && at->factor > 0 ? at->factor : 1;
     double scatter = 1;
     if (weak->scatter.kind == BRC_SCATTER_FILE)
         scatter = from_file[bond] > 0 ? from_file[bond] : 1;
     else if (weak->scatter.kind != BRC_SCATTER_NONE)
-        scatter = draw(&weak->scatter, scene->fracture.seed, d, bond);
+        scatter = draw(&weak->scatter, scene->fracture.seed, d, bond, bond_volume);
     const bool given = at && at->tension > 0;
     out->joint[bond] = at != NULL;
     out->tension[bond] = (given ? at->tension : factor * weak->tension) * scatter;
@@ -230,9 +247,11 @@ brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, co
                                 const int32_t *material, brc_strengths *out)
 {
     double **from_file = NULL;
+    BRC_FREED double *volume = NULL;
     int64_t *count = NULL;
     brc_status status = BRC_OK;
     memset(out, 0, sizeof *out);
+    BRC_TRY(bring_volumes(context, scene, d, &volume));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &from_file, scene->n_materials, "factors of bonds"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &count, scene->n_interfaces, "interfaces"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &out->tension, d->n_bonds, "strengths of bonds"));
@@ -250,7 +269,7 @@ brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, co
             BRC_TRY_OR(cleanup, read_factors(context, scene, weak->scatter.file, d, &from_file[m]));
         if (k >= 0) BRC_TRY_OR(cleanup, check_interface(context, scene, k, weak));
         if (k >= 0) ++count[k];
-        fill_bond(scene, d, b, weak, k >= 0 ? &scene->interfaces[k] : NULL, from_file[m], out);
+        fill_bond(scene, d, b, weak, k >= 0 ? &scene->interfaces[k] : NULL, from_file[m], volume, out);
     }
     tell_interfaces(context, scene, d, count);
 cleanup:

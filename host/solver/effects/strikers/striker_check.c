@@ -1,6 +1,8 @@
 /* What is wrong, or looks wrong, with strikers before a run begins: they stand in a body, are quicker than sound, or
  * come near nothing. */
 #include "strikers_internal.h"
+#include "../../../../preprocess/domain/domain_rows.h"
+#include "../../../base/ranks.h"
 #include "../../core/sym3.h"
 #include <math.h>
 #include <string.h>
@@ -107,6 +109,7 @@ static void find_elements(const brc_domain *d, const brc_strikers *t, int32_t pi
     const double *centre = t->body[t->piece_striker[piece]].centre, reach = t->convex.radius[piece];
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const double *x = d->position + 3 * e, out = spheres ? d->radius[e] : 0;
+        if (!brc_domain_mine(d, e)) continue;
         const double away = hypot(hypot(x[0] - centre[0], x[1] - centre[1]), x[2] - centre[2]);
         if (spheres) {
             if (away - out > reach) continue;
@@ -123,13 +126,15 @@ static void find_elements(const brc_domain *d, const brc_strikers *t, int32_t pi
     }
 }
 
-/* Corners of a piece in cells: x lies in the cell of the nearest position, if in any. */
-static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t piece, brc_overlap *deepest)
+/* Corners of a piece in cells: x lies in the cell of the nearest position, if in any. Returns which corner is the
+ * deepest, if it is deeper than what was found before. */
+static int64_t find_corners(const brc_domain *d, const brc_strikers *t, int32_t piece, brc_overlap *deepest)
 {
+    int64_t at = INT64_MAX;
     const double *centre = t->body[t->piece_striker[piece]].centre;
     for (int32_t k = t->convex.corner_start[piece]; k <= t->convex.corner_start[piece + 1]; ++k) {
         const bool last = k == t->convex.corner_start[piece + 1]; /* its middle */
-        if (last && t->piece_kind[piece] == BRC_PIECE_PLANE) return;
+        if (last && t->piece_kind[piece] == BRC_PIECE_PLANE) break;
         double x[3], least = HUGE_VAL;
         int64_t nearest = -1;
         bool near = true;
@@ -145,8 +150,35 @@ static void find_corners(const brc_domain *d, const brc_strikers *t, int32_t pie
             least = square;
             nearest = e;
         }
-        if (nearest >= 0) brc_deepen(deepest, depth_in_cell(d, nearest, x), nearest, x);
+        const double depth = nearest >= 0 && brc_domain_mine(d, nearest) ? depth_in_cell(d, nearest, x) : 0;
+        if (depth > deepest->depth) at = k;
+        brc_deepen(deepest, depth, nearest, x);
     }
+    return at;
+}
+
+/* All ranks: the deepest that one of them has found; of equal ones the first by `order`. */
+static brc_status deepest_of_all(const brc_simulation *s, int64_t order, brc_overlap *deepest)
+{
+    typedef struct found {
+        brc_overlap overlap;
+        int64_t order;
+    } found;
+    const int32_t count = brc_ranks_count();
+    const found own = {*deepest, order};
+    if (!s->domain->here) return BRC_OK;
+    BRC_LOCAL(s->context, count, found, all, "overlaps of ranks");
+    BRC_LOCAL(s->context, count, int64_t, ones, "overlaps of ranks");
+    for (int32_t k = 0; k < count; ++k)
+        ones[k] = 1;
+    BRC_TRY(brc_ranks_gather_all(s->context, &own, sizeof own, ones, all));
+    int32_t best = 0;
+    for (int32_t k = 1; k < count; ++k)
+        if (all[k].overlap.depth > all[best].overlap.depth ||
+            (all[k].overlap.depth == all[best].overlap.depth && all[k].order < all[best].order))
+            best = k;
+    *deepest = all[best].overlap;
+    return BRC_OK;
 }
 
 BRC_READ(double, brc_striker_refused_depth, refused_depth * s->domain->quality.mean_spacing)
@@ -188,7 +220,10 @@ static brc_status check_overlap(brc_simulation *s, int32_t i)
     for (int32_t p = 0; p < t->convex.n; ++p) {
         if (t->piece_striker[p] != i) continue;
         find_elements(d, t, p, &deepest);
-        if (!spheres) find_corners(d, t, p, &deepest);
+        BRC_TRY(deepest_of_all(s, deepest.element, &deepest));
+        if (spheres) continue;
+        const int64_t corner = find_corners(d, t, p, &deepest);
+        BRC_TRY(deepest_of_all(s, corner, &deepest));
     }
     return brc_striker_stands_in(s, i, &deepest);
 }

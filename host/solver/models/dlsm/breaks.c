@@ -1,5 +1,7 @@
 /* Bonds of dlsm that break (docs/notebook/fracture.md, "Fracture of cells"). */
 #include "cell_softening.h"
+#include "../../../../preprocess/domain/domain_rows.h"
+#include "../../../base/ranks.h"
 #include "../../core/sym3.h"
 #include "../../effects/loads/loads.h"
 #include "consistent.h"
@@ -61,18 +63,23 @@ static brc_status upload_elements(brc_simulation *s)
 #pragma omp parallel for schedule(static) reduction(+ : weak) reduction(max : largest)
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
-        if (e < 0) continue;
+        if (e < 0 || !brc_domain_has(s->domain, e)) continue;
         const brc_elastic *m = s->elastic + s->material_of_element[e];
         double whole, stiff;
         support_of(s, e, &whole, &stiff);
-        modulus[r] = m->lambda + 2 * m->mu;
         support[r] = fmax(support_share * whole, support_least);
-        weak += whole <= support_least;
-        largest = fmax(largest, modulus[r] / m->density * stiff);
+        weak += whole <= support_least && brc_domain_mine(s->domain, e);
+        largest = fmax(largest, (m->lambda + 2 * m->mu) / m->density * stiff);
+    }
+    if (s->domain->here) {
+        BRC_TRY(brc_ranks_reduce(s->context, BRC_SUM, 1, &weak));
+        BRC_TRY(brc_ranks_most(s->context, 1, &largest));
     }
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         const int32_t e = layout->element_of_row[r];
-        if (e >= 0) stiffest[r] = largest * s->elastic[s->material_of_element[e]].density / modulus[r];
+        if (e < 0) continue;
+        modulus[r] = s->elastic[s->material_of_element[e]].lambda + 2 * s->elastic[s->material_of_element[e]].mu;
+        stiffest[r] = largest * s->elastic[s->material_of_element[e]].density / modulus[r];
     }
     if (weak)
         brc_log(s->context, BRC_LOG_WARNING,

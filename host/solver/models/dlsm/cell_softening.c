@@ -1,4 +1,5 @@
 #include "cell_softening.h"
+#include "../../../../preprocess/domain/domain_rows.h"
 #include "../../core/sym3.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
@@ -151,7 +152,7 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     BRC_LOCAL(s->context, layout->n_rows, double, shear, "shear moduli");
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
-        if (h < 0) continue;
+        if (h < 0 || !brc_domain_has(d, d->neighbour[d->twin[h]])) continue;
         crack[WIDTH * k + ENERGY] = strengths->energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
         crack[WIDTH * k + EXPONENTIAL] = strengths->exponential[d->bond[h]];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
@@ -180,6 +181,7 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
         f->shear_least = fmin(f->shear_least, whole * strengths->factor[d->bond[h]] / reach);
+        if (!brc_domain_has(d, d->neighbour[d->twin[h]])) continue;
         limit[k] = (strengths->joint[d->bond[h]] ? -whole : whole) * strengths->factor[d->bond[h]];
         energy[k] = strengths->shear_energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
     }
@@ -435,19 +437,26 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
     BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
     BRC_TRY(brc_download(s, f->crack, bytes, crack, WIDTH * n_entries));
     BRC_TRY(brc_download(s, brc_cell_breaks_array(s, "alive"), bytes, alive, n_entries));
+    BRC_LOCAL(s->context, n_entries, int32_t, ended, "ended faces");
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         const double *own = crack + WIDTH * k;
         if (h < 0 || !(own[START] > 0) || d->neighbour[d->twin[h]] > d->neighbour[h]) continue;
-        const double spent = own[SPENT], tilt = own[TILT];
         out->n_opened += 1;
-        out->spent += spent;
-        if (alive[k] > 0 && open[k] != APART) {
-            out->unfinished += spent;
-            continue;
-        }
-        out->n_ended += 1;
-        out->area += tilt * own[COSINE] * brc_norm3(d->area_vector + 3 * (int64_t)h);
+        out->spent += own[SPENT];
+        if (alive[k] > 0 && open[k] != APART)
+            out->unfinished += own[SPENT];
+        else
+            ended[out->n_ended++] = (int32_t)k;
+    }
+    BRC_LOCAL(s->context, 6 * out->n_ended, double, face, "ended faces");
+    BRC_LOCAL(s->context, out->n_ended, int32_t, half_edge, "ended faces");
+    for (int64_t i = 0; i < out->n_ended; ++i)
+        half_edge[i] = layout->half_edge[ended[i]];
+    BRC_TRY(brc_domain_faces(s->context, d, out->n_ended, half_edge, face));
+    for (int64_t i = 0; i < out->n_ended; ++i) {
+        const double *own = crack + WIDTH * (int64_t)ended[i];
+        out->area += own[TILT] * own[COSINE] * brc_norm3(face + 6 * i);
     }
     return BRC_OK;
 }

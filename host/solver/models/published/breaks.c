@@ -62,7 +62,8 @@ brc_status brc_published_breaks_create(brc_simulation *s)
 #pragma omp parallel for schedule(static)
     for (int32_t r = 0; r < layout->n_rows; ++r) {
         double projector[6] = {0};
-        if (layout->element_of_row[r] >= 0) support[r] = support_of(s, layout->element_of_row[r], projector);
+        const int32_t e = layout->element_of_row[r];
+        if (e >= 0 && brc_domain_has(s->domain, e)) support[r] = support_of(s, e, projector);
         for (int k = 0; k < 6; ++k)
             spanned[(int64_t)(r / layout->slice * 6 + k) * layout->slice + r % layout->slice] = projector[k];
     }
