@@ -135,16 +135,19 @@ static int by_ratio(const void *a, const void *b)
     return left < right ? -1 : left > right;
 }
 
-/* What passes reach and how long they take of a few elements: on a GPU by two bodies, for it waits as long for memory
- * with one element a work-item as with many; else by the small one, in cache. */
+/* What passes reach and how long they take of a few elements: on a GPU by two elastic bodies, for it waits as long for
+ * memory with one element a work-item as with many; else by a small one under the same effect, in cache, for passes of
+ * a CPU wait for arithmetic, of which effects do more for each byte, and searches of contact are in no count of bytes.
+ */
 static brc_status measure_passes(const brc_launches_request *r, brc_device *device, const body *small, const body *many,
                                  brc_device_price *price)
 {
     step_work few, full;
     BRC_TRY(take_steps(r, device, small, SMALL_STEPS, &few));
     if (!many->simulation) {
-        const double launching = (double)few.counts.launches / SMALL_STEPS * price->launch_s;
-        if (few.seconds > launching) price->pass_bandwidth = small->floor_bytes / (few.seconds - launching);
+        const double asking =
+            ((double)few.counts.launches * price->launch_s + (double)few.counts.waits * price->wait_s) / SMALL_STEPS;
+        if (few.seconds > asking) price->pass_bandwidth = small->floor_bytes / (few.seconds - asking);
         return BRC_OK;
     }
     BRC_TRY(take_steps(r, device, many, SMALL_STEPS, &full));
@@ -197,16 +200,18 @@ static void add_figures(const brc_launches_request *r, const brc_domain *domain,
     brc_rows_integer(rows, "bonds", domain->n_bonds);
 }
 
-static brc_status measure(brc_context *context, const brc_launches_request *r, brc_device *device, const body *small,
-                          const body *many, const brc_domain *domain, brc_model_kind model, const effect *e,
-                          brc_rows *rows)
+/* few: of the small body; many: without a simulation but on a GPU. */
+static brc_status measure(brc_context *context, const brc_launches_request *r, brc_device *device,
+                          const brc_domain *few, const body *many, const brc_domain *domain, brc_model_kind model,
+                          const effect *e, brc_rows *rows)
 {
     brc_status status = BRC_OK;
-    body large = {0};
+    body large = {0}, small = {0};
     bench_round rounds[ROUNDS];
+    BRC_TRY_OR(cleanup, body_make(context, device, few, model, many->simulation ? &effects[0] : e, &small));
     BRC_TRY_OR(cleanup, body_make(context, device, domain, model, e, &large));
     for (int k = 0; k < ROUNDS; ++k)
-        BRC_TRY_OR(cleanup, measure_round(r, device, small, many, &large, &rounds[k]));
+        BRC_TRY_OR(cleanup, measure_round(r, device, &small, many, &large, &rounds[k]));
     qsort(rounds, ROUNDS, sizeof *rounds, by_ratio);
     brc_rows_begin(rows);
     brc_rows_text(rows, "case", "launches");
@@ -222,15 +227,8 @@ static brc_status measure(brc_context *context, const brc_launches_request *r, b
     status = rows->status != BRC_OK ? rows->status : r->row ? r->row(r->self, rows) : BRC_OK;
 cleanup:
     brc_simulation_free(&large.simulation);
+    brc_simulation_free(&small.simulation);
     return status;
-}
-
-/* An elastic body of so many elements; *domain as long as it. */
-static brc_status make_elastic(brc_context *context, brc_device *device, brc_model_kind model, int64_t size,
-                               brc_domain **domain, body *out)
-{
-    BRC_TRY(brc_cube_build(context, size, brc_cube_is_of_spheres(model), domain));
-    return body_make(context, device, *domain, model, &effects[0], out);
 }
 
 static brc_status measure_model(brc_context *context, const brc_launches_request *r, brc_model_kind model,
@@ -239,18 +237,20 @@ static brc_status measure_model(brc_context *context, const brc_launches_request
     brc_status status = BRC_OK;
     brc_domain *domain = NULL, *few = NULL, *full = NULL;
     brc_device *device = NULL;
-    body small = {0}, many = {0};
+    body many = {0};
+    const bool spheres = brc_cube_is_of_spheres(model);
     const brc_device_request open = {.selector = r->device, .precision = r->precision, .n_threads = r->n_threads};
     BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
-    BRC_TRY_OR(cleanup, make_elastic(context, device, model, SMALL, &few, &small));
-    if (brc_device_get_info(device)->is_gpu)
-        BRC_TRY_OR(cleanup, make_elastic(context, device, model, MANY, &full, &many));
-    BRC_TRY_OR(cleanup, brc_cube_build(context, r->size, brc_cube_is_of_spheres(model), &domain));
+    BRC_TRY_OR(cleanup, brc_cube_build(context, SMALL, spheres, &few));
+    if (brc_device_get_info(device)->is_gpu) {
+        BRC_TRY_OR(cleanup, brc_cube_build(context, MANY, spheres, &full));
+        BRC_TRY_OR(cleanup, body_make(context, device, full, model, &effects[0], &many));
+    }
+    BRC_TRY_OR(cleanup, brc_cube_build(context, r->size, spheres, &domain));
     for (size_t k = 0; k < sizeof effects / sizeof effects[0]; ++k)
-        BRC_TRY_OR(cleanup, measure(context, r, device, &small, &many, domain, model, &effects[k], rows));
+        BRC_TRY_OR(cleanup, measure(context, r, device, few, &many, domain, model, &effects[k], rows));
 cleanup:
     brc_simulation_free(&many.simulation);
-    brc_simulation_free(&small.simulation);
     brc_domain_free(&domain);
     brc_domain_free(&full);
     brc_domain_free(&few);

@@ -306,10 +306,10 @@ typedef int aside;
 #define ASIDE(name, n) const aside name = 0
 #endif
 
-/* Blocks of SCAN_BLOCK numbers: one work-item would wait for each number in turn, so on a GPU a group, the crew, does
- * each (FOR_EACH_CREW, over the items of a kernel whose first parameter is n_crews): CREW work-items, of which each has
- * a part of the block (CREW_BEGIN, CREW_END) or, where the order of a sum counts, stages numbers in local memory for
- * the first (CREW_STAGE, CREW_STAGED). CREW_FIRST: whether this is the one that writes what there is one of a block. */
+/* Blocks of numbers: on a GPU a group, the crew, does each (FOR_EACH_CREW; first parameter n_crews or n_crew_parts),
+ * its CREW work-items every CREWth number, or of SCAN_BLOCK a part (CREW_BEGIN, CREW_END), or the first what all stage
+ * in order (CREW_STAGE, CREW_STAGED). Of n columns each puts a row (CREW_PUT, CREW_WAIT), then sums CREW_SHARE(n) of
+ * them (CREW_COLUMN), or FOR_CREW_COLUMNS. CREW_FIRST writes for all; CREW_SHARED: ints that the others are shown. */
 #define SCAN_BLOCK 1024
 #if defined(__OPENCL_VERSION__) && W == 1
 #define CREW 32
@@ -317,16 +317,23 @@ typedef __local int *crew_room;
 #define CREW_ROOM(name)                                                                                                \
     __local int name##_of_crew[CREW];                                                                                  \
     const crew_room name = name##_of_crew
-#define FOR_EACH_CREW(b, n)                                                                                            \
-    const int b = (int)get_global_id(0) / CREW;                                                                        \
+#define CREW_DO(b, value, n)                                                                                           \
+    const int b = (value);                                                                                             \
     if (b < (n))
+#define FOR_EACH_CREW(b, n) CREW_DO(b, (int)get_global_id(0) / CREW, n)
+#define FOR_CREW_COLUMNS(c, n) CREW_DO(c, CREW_PLACE, n)
 #define CREW_PLACE ((int)get_local_id(0))
+#define CREW_SHARED(array) ((volatile __global int *)(array))
 #define CREW_STAGE(type, name) __local type name[SCAN_BLOCK]
 #define CREW_STAGED(name, begin, end, i, value)                                                                        \
     for (int i = (begin) + CREW_PLACE; i < (end); i += CREW) name[i - (begin)] = (value);                              \
-    barrier(CLK_LOCAL_MEM_FENCE)
+    CREW_WAIT()
 #define CREW_NUMBER(name, at, value) name[at]
+#define CREW_PUT(name, at, value) (name[at] = (value))
+#define CREW_WAIT() barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
 #else
+#define CREW_SHARED(array) array
+#define FOR_CREW_COLUMNS(c, n) for (int c = 0; c < n; c += 1)
 #define CREW 1
 typedef int crew_room;
 #define CREW_ROOM(name) const crew_room name = 0
@@ -335,7 +342,12 @@ typedef int crew_room;
 #define CREW_STAGE(type, name)
 #define CREW_STAGED(name, begin, end, i, value)
 #define CREW_NUMBER(name, at, value) (value)
+#define CREW_PUT(name, at, value) ((void)0)
+#define CREW_WAIT() ((void)0)
 #endif
+#define CREW_AT(row, column, n) ((row) * ((n) | 1) + (column)) /* odd: rows lie in different banks */
+#define CREW_SHARE(n) (((n) + CREW - 1) / CREW)
+#define CREW_COLUMN(i) ((i)*CREW + CREW_PLACE)
 #define CREW_FIRST (CREW_PLACE == 0)
 #define CREW_BEGIN(begin, end)                                                                                         \
     ((begin) + CREW_PLACE * (SCAN_BLOCK / CREW) < (end) ? (begin) + CREW_PLACE * (SCAN_BLOCK / CREW) : (end))
@@ -348,9 +360,9 @@ LAW int crew_sum(crew_room room, int x, int all)
 #if CREW > 1
     int sum = 0;
     room[CREW_PLACE] = x;
-    barrier(CLK_LOCAL_MEM_FENCE);
+    CREW_WAIT();
     for (int t = 0; t < (all ? CREW : CREW_PLACE); ++t) sum += room[t];
-    barrier(CLK_LOCAL_MEM_FENCE);
+    CREW_WAIT();
     return sum;
 #else
     (void)room;
@@ -359,6 +371,21 @@ LAW int crew_sum(crew_room room, int x, int all)
 }
 #define CREW_ALL(room, x) crew_sum(room, x, 1)
 #define CREW_BEFORE(room, x) crew_sum(room, x, 0)
+/* How many of those before this one, or with `all` of the whole crew, have x too. */
+LAW int crew_alike(crew_room room, int x, int all)
+{
+#if CREW > 1
+    int alike = 0;
+    room[CREW_PLACE] = x;
+    CREW_WAIT();
+    for (int t = 0; t < (all ? CREW : CREW_PLACE); ++t) alike += room[t] == x;
+    CREW_WAIT();
+    return alike;
+#else
+    (void)room, (void)x;
+    return all;
+#endif
+}
 
 /* Numbers of rows of three, one after the other: work-items of a group that lie side by side do numbers that do, which
  * a GPU reads and writes at once. */
@@ -454,8 +481,7 @@ LAW int crew_sum(crew_room room, int x, int all)
 #define LANE_GATHER(p, at) ((lane)_mm256_i32gather_ps((p), (__m256i)(at), 4))
 #endif
 #endif
-/* Whether any number is not 0, or any of a is not at least that of b: gcc compares the lanes one by one where no
- * instruction is named. */
+/* Whether any number is not 0, or any of a is not at least that of b: gcc compares one by one by itself. */
 #if !defined(LANE_ANY) && defined(LANE_GATHER)
 #define LANE_ANY(x) (!_mm256_testz_si256((__m256i)(x), (__m256i)(x)))
 #if BRC_PRECISION == 0
@@ -467,10 +493,8 @@ LAW int crew_sum(crew_room room, int x, int all)
 #define LANE_ANY(x) brc_lane_any(x)
 #define LANE_ANY_SHORT(a, b) brc_lane_any_short(a, b)
 #endif
-
 /* Storage (SELL-C): element arrays of n components that are only read by their own element are blocked,
  * [slice][component][C]; those that neighbours gather are [element][components]. Rows are [slot][component][C]. */
 #define SLICE_OF(group) ((group) / (C / W))
 #define FIRST_LANE_OF(group) (((group) % (C / W)) * W)
-
 #endif

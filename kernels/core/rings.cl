@@ -2,7 +2,8 @@
  * neighbours, ring 1, and so on. Passes over lists of them (members.cl) do what a pass over the whole body would
  * change.
  *
- * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke. level [n]: 0, or the ring that
+ * touched [n]: 1 for elements of ring 0, set by whoever marks bonds, 2 when these broke, 3 when more of them are marked
+ * then (cells_rebuild). level [n]: 0, or the ring that
  * an element was found to be in: RING_FOUND in ring 0 or 1 and not listed yet, then 1 + its ring. Both are 0 again when
  * the last list is made; touched, where that list is kept, by who uses it up (cells_share). Where places are wanted
  * level holds, until ring_forget, the ring, 0 to 3, and four times 1 + the place in the list of the rings 0 to 2; in
@@ -60,8 +61,8 @@ LAW int rings_reach(lane_int touched, lane_int level)
     return LANE_ANY(some);
 }
 
-/* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; one number more a list is room for their sum.
- * n and SCAN_BLOCK are multiples of W. */
+/* count[list][block]: how many of the lists 0 to `list`, in fixed blocks; behind these RING_KINDS lists how many are
+ * touched by marks that did not break yet. n and SCAN_BLOCK are multiples of W. */
 KERNEL void ring_count(int n_crew_parts, int n, int which, OWN(int) touched, OWN(int) level, PUT(int) count)
 {
     CREW_ROOM(room);
@@ -71,35 +72,44 @@ KERNEL void ring_count(int n_crew_parts, int n, int which, OWN(int) touched, OWN
 #define NONE(l) 0
         const lane_int none = LANE_MAKE(lane_int, NONE);
 #undef NONE
-        lane_int upto[RING_KINDS] = {none, none, none, none};
+        lane_int upto[RING_KINDS + 1] = {none, none, none, none, none};
         LOADS_TOGETHER(8)
         for (int first = from; first < to; first += W) {
             const lane_int t = int_load(touched, (brc_size)first), l = int_load(level, (brc_size)first);
             if (!rings_reach(t, l)) continue;
             for (int k = 0; k < RING_KINDS; ++k) upto[k] -= ring_is_upto(which, k, t, l);
+            upto[RING_KINDS] += t & 1;
         }
-        for (int k = 0; k < RING_KINDS; ++k) {
+        for (int k = 0; k <= RING_KINDS; ++k) {
             int sum = 0;
 #define ADD(l) sum += LANE_ITEM(upto[k], l);
             LANE_EACH(ADD)
 #undef ADD
             sum = CREW_ALL(room, sum);
-            if (CREW_FIRST) count[k * (n_crew_parts + 1) + b] = sum;
+            if (CREW_FIRST) count[k * n_crew_parts + b] = sum;
         }
     }
 }
 
-/* Running sums of the counts of every list, each of the blocks before, at the end of all. n_lists: RING_KINDS. */
-KERNEL void ring_tops(int n_lists, int n_blocks, UPDATE(int) count)
+/* Running sums of the counts of every list, each of the blocks before; behind all of them what each list holds.
+ * n_crew_parts: lists. */
+KERNEL void ring_tops(int n_crew_parts, int n_blocks, UPDATE(int) count)
 {
-    FOR_EACH_ITEM(k, n_lists) {
-        int before = 0;
-        for (int b = 0; b < n_blocks; ++b) {
-            const int at = k * (n_blocks + 1) + b, own = count[at];
-            count[at] = before;
-            before += own;
+    CREW_ROOM(room);
+    FOR_EACH_CREW(k, n_crew_parts) {
+        const int share = CREW_SHARE(n_blocks), first = k * n_blocks, last = first + n_blocks,
+                  from = first + CREW_PLACE * share, to = from + share < last ? from + share : last;
+        int own = 0;
+        LOADS_TOGETHER(16)
+        for (int b = from; CREW > 1 && b < to; ++b) own += count[b];
+        int before = CREW_BEFORE(room, own);
+        LOADS_TOGETHER(16)
+        for (int b = from; b < to; ++b) {
+            const int x = count[b];
+            count[b] = before;
+            before += x;
         }
-        count[k * (n_blocks + 1) + n_blocks] = before;
+        if (CREW_PLACE == CREW - 1) count[n_crew_parts * n_blocks + k] = before;
     }
 }
 
@@ -111,7 +121,7 @@ KERNEL void ring_list(int n_crews, int n, int which, UPDATE(int) touched, UPDATE
     CREW_ROOM(room);
     FOR_EACH_CREW(b, n_crews) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
-        const int row = n_crews + 1, from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
+        const int row = n_crews, from = CREW_BEGIN(begin, end), to = CREW_END(begin, end);
         int to_0 = next[b], to_1 = next[row + b], to_2 = next[2 * row + b], to_3 = next[3 * row + b];
         int before[RING_KINDS] = {0, 0, 0, 0};
         LOADS_TOGETHER(8)
@@ -138,6 +148,14 @@ KERNEL void ring_list(int n_crews, int n, int which, UPDATE(int) touched, UPDATE
                 lane_pack(upto_2 + to_2, is_2, own), lane_pack(upto_3 + to_3, is_3, own);
             to_0 += lane_count(is_0), to_1 += lane_count(is_1), to_2 += lane_count(is_2), to_3 += lane_count(is_3);
         }
+    }
+}
+
+/* Rings 2 and 3, spread in vain, are taken back. */
+KERNEL void ring_take_back(int n_rows, UPDATE(int) level)
+{
+    FOR_EACH_ITEM(e, n_rows) {
+        if (level[e] > RING_FOUND + 1) level[e] = 0;
     }
 }
 

@@ -18,18 +18,24 @@ KERNEL void scan_sums(int n_crews, int n, OWN(int) x, PUT(int) sum)
     }
 }
 
-/* One work-item: sum[b] becomes the sum of those before it, sum[n_blocks] that of all. n_items: 1. */
-KERNEL void scan_tops(int n_items, int n_blocks, SCATTER(int) sum)
+/* sum[b] becomes the sum of those before it, sum[at] that of all. n_crew_parts: 1. */
+KERNEL void scan_tops(int n_crew_parts, int n_blocks, int at, SCATTER(int) sum)
 {
-    FOR_EACH_ITEM(k, n_items) {
-        int before = k;
+    CREW_ROOM(room);
+    FOR_EACH_CREW(k, n_crew_parts) {
+        const int share = CREW_SHARE(n_blocks), from = CREW_PLACE * share,
+                  to = from + share < n_blocks ? from + share : n_blocks;
+        int own = 0;
         LOADS_TOGETHER(16)
-        for (int b = 0; b < n_blocks; ++b) {
-            const int own = sum[b];
+        for (int b = from; CREW > 1 && b < to; ++b) own += sum[b];
+        int before = CREW_BEFORE(room, own);
+        LOADS_TOGETHER(16)
+        for (int b = from; b < to; ++b) {
+            const int x = sum[b];
             sum[b] = before;
-            before += own;
+            before += x;
         }
-        sum[n_blocks] = before;
+        if (CREW_PLACE == CREW - 1) sum[at] = before;
     }
 }
 
@@ -52,29 +58,49 @@ KERNEL void scan_fill(int n_crews, int n, OWN(int) x, OWN(int) sum, SCATTER(int)
     }
 }
 
+LAW int sort_digit(int key, int shift) { return key >> shift & (SORT_BINS - 1); }
+
 /* count[bin][block]: keys of the block whose digit is bin. */
-KERNEL void sort_count(int n_blocks, int n, int shift, OWN(int) key, SCATTER(int) count)
+KERNEL void sort_count(int n_crews, int n, int shift, OWN(int) key, SCATTER(int) count)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    CREW_ROOM(room);
+    CREW_STAGE(int, bin);
+    FOR_EACH_CREW(b, n_crews) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
-        for (int bin = 0; bin < SORT_BINS; ++bin) count[(brc_size)bin * (brc_size)n_blocks + (brc_size)b] = 0;
-        for (int i = begin; i < end; ++i)
-            count[(brc_size)(key[i] >> shift & (SORT_BINS - 1)) * (brc_size)n_blocks + (brc_size)b] += 1;
+        GLOBAL int *const own = count + b;
+        for (int d = CREW_PLACE; d < SORT_BINS; d += CREW)
+            CREW_NUMBER(bin, d, own[(brc_size)d * (brc_size)n_crews]) = 0;
+        for (int first = begin; first < end; first += CREW) {
+            const int i = first + CREW_PLACE, d = i < end ? sort_digit(key[i], shift) : SORT_BINS;
+            const int before = crew_alike(room, d, 0), alike = crew_alike(room, d, 1);
+            if (d < SORT_BINS && before == 0) CREW_NUMBER(bin, d, own[(brc_size)d * (brc_size)n_crews]) += alike;
+        }
+        CREW_WAIT();
+        for (int d = CREW_PLACE; CREW > 1 && d < SORT_BINS; d += CREW)
+            own[(brc_size)d * (brc_size)n_crews] = CREW_NUMBER(bin, d, own[(brc_size)d * (brc_size)n_crews]);
     }
 }
 
 /* Keys with their values to where the running sums of count say; next is used up. */
-KERNEL void sort_move(int n_blocks, int n, int shift, OWN(int) key, OWN(int) value, SCATTER(int) next,
+KERNEL void sort_move(int n_crews, int n, int shift, OWN(int) key, OWN(int) value, SCATTER(int) next,
                       SCATTER(int) key_out, SCATTER(int) value_out)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    CREW_ROOM(room);
+    CREW_STAGE(int, bin);
+    FOR_EACH_CREW(b, n_crews) {
         const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
-        for (int i = begin; i < end; ++i) {
-            const brc_size bin = (brc_size)(key[i] >> shift & (SORT_BINS - 1)) * (brc_size)n_blocks + (brc_size)b;
-            const int to = next[bin];
-            next[bin] = to + 1;
-            key_out[to] = key[i];
-            value_out[to] = value[i];
+        GLOBAL int *const own = next + b;
+        CREW_STAGED(bin, 0, SORT_BINS, d, own[(brc_size)d * (brc_size)n_crews]);
+        for (int first = begin; first < end; first += CREW) {
+            const int i = first + CREW_PLACE, d = i < end ? sort_digit(key[i], shift) : SORT_BINS;
+            const int before = crew_alike(room, d, 0);
+            const int to = d < SORT_BINS ? CREW_NUMBER(bin, d, own[(brc_size)d * (brc_size)n_crews]) + before : 0;
+            const int alike = crew_alike(room, d, 1);
+            if (d < SORT_BINS) {
+                if (before == 0) CREW_NUMBER(bin, d, own[(brc_size)d * (brc_size)n_crews]) += alike;
+                key_out[to] = key[i];
+                value_out[to] = value[i];
+            }
         }
     }
 }

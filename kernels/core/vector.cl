@@ -12,12 +12,6 @@ KERNEL void vector_copy(int n_numbers, OWN(state) x, PUT(state) y)
     FOR_EACH_ITEM(i, n_numbers) { y[i] = x[i]; }
 }
 
-/* y[i] = x[index[i]] */
-KERNEL void vector_gather(int n, OWN(int) index, GATHER(state) x, PUT(state) y)
-{
-    FOR_EACH_ITEM(i, n) { y[i] = x[index[i]]; }
-}
-
 /* y = x + a y */
 KERNEL void vector_xpay(int n_numbers, state a, OWN(state) x, UPDATE(state) y)
 {
@@ -37,8 +31,8 @@ KERNEL void vector_dot(int n_crews, int n, OWN(state) x, OWN(state) y, PUT(state
     }
 }
 
-/* partial[b] = sum of x over block b. */
-KERNEL void vector_sum(int n_crews, int n, OWN(state) x, PUT(state) partial)
+/* partial[at + b] = sum of x over block b. */
+KERNEL void vector_sum(int n_crews, int n, int at, OWN(state) x, PUT(state) partial)
 {
     CREW_STAGE(state, number);
     FOR_EACH_CREW(b, n_crews) {
@@ -46,7 +40,19 @@ KERNEL void vector_sum(int n_crews, int n, OWN(state) x, PUT(state) partial)
         state sum = 0;
         CREW_STAGED(number, begin, end, k, x[k]);
         for (int i = begin; CREW_FIRST && i < end; ++i) sum += CREW_NUMBER(number, i - begin, x[i]);
-        if (CREW_FIRST) partial[b] = sum;
+        if (CREW_FIRST) partial[at + b] = sum;
+    }
+}
+/* The same over the n rows of a list. */
+KERNEL void vector_sum_listed(int n_crew_parts, int n, int at, OWN(int) list, OWN(state) x, PUT(state) partial)
+{
+    CREW_STAGE(state, number);
+    FOR_EACH_CREW(b, n_crew_parts) {
+        const int begin = b * SCAN_BLOCK, end = begin + SCAN_BLOCK < n ? begin + SCAN_BLOCK : n;
+        state sum = 0;
+        CREW_STAGED(number, begin, end, k, x[list[k]]);
+        for (int i = begin; CREW_FIRST && i < end; ++i) sum += CREW_NUMBER(number, i - begin, x[list[i]]);
+        if (CREW_FIRST) partial[at + b] = sum;
     }
 }
 

@@ -1,5 +1,5 @@
-/* The guard of a run: which element is the first to leave what physics allows. One work-item does one block of rows;
- * nothing is reduced over blocks, so that a number that is not finite cannot be lost in a maximum. */
+/* The guard of a run: which element is the first to leave what physics allows, in each block of rows. Nothing is
+ * reduced over blocks, so that a number that is not finite cannot be lost in a maximum. */
 
 #define GUARD_BLOCK 128
 
@@ -9,15 +9,16 @@ LAW int guard_within(state x, state most) { return x < most && x > -most; }
 /* first[b]: the lowest row of block b with a velocity component beyond most_v [m/s], a displacement component beyond
  * most_u [m], or not finite, -1 before there was one; when[b]: the probe at which it was found. turns: spins [rad/s]
  * are looked at too, finite below most_u. What was found stays. */
-KERNEL void guard_probe(int n_blocks, int n, int probe, state most_u, state most_v, int turns, OWN(state) displacement,
+KERNEL void guard_probe(int n_crews, int n, int probe, state most_u, state most_v, int turns, OWN(state) displacement,
                         OWN(state) velocity, OWN(state) spin, UPDATE(int) first, PUT(int) when)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
-        const int begin = b * GUARD_BLOCK, end = begin + GUARD_BLOCK < n ? begin + GUARD_BLOCK : n;
-        if (first[b] < 0) {
+    CREW_STAGE(int, row);
+    FOR_EACH_CREW(b, n_crews) {
+        const int begin = b * GUARD_BLOCK, end = begin + GUARD_BLOCK < n ? begin + GUARD_BLOCK : n, before = first[b];
+        if (before < 0) {
             int found = -1;
             LOADS_TOGETHER(4)
-            for (int e = end - 1; e >= begin; --e) {
+            for (int e = end - 1 - CREW_PLACE; e >= begin; e -= CREW) {
                 int within = 1;
                 for (int c = 0; c < 3; ++c) {
                     const brc_size at = (brc_size)e * 3 + c;
@@ -26,7 +27,13 @@ KERNEL void guard_probe(int n_blocks, int n, int probe, state most_u, state most
                 }
                 found = within ? found : e;
             }
-            if (found >= 0) {
+            CREW_PUT(row, CREW_PLACE, found);
+            CREW_WAIT();
+            for (int t = 0; t < CREW; ++t) {
+                const int other = CREW_NUMBER(row, t, found);
+                found = other >= 0 && (found < 0 || other < found) ? other : found;
+            }
+            if (CREW_FIRST && found >= 0) {
                 first[b] = found;
                 when[b] = probe;
             }

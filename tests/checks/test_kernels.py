@@ -74,6 +74,18 @@ def idle(files):
             for name in re.findall(r"^LAW \w+ (\w+)\(", text, re.M) if words[name] < 2]
 
 
+def alone(files):
+    """Kernels in which one work-item goes through a block of numbers or through as many as there are: on a GPU these wait one after the other."""
+    findings = []
+    for path, text in files.items():
+        for match in re.finditer(r"^KERNEL void\s+(?:PASS\()?(\w+)(.*?)^}", repository.code_of(text), re.M | re.S):
+            if "FOR_EACH_CREW" not in match.group(2):
+                loops = re.findall(r"\b\w+_BLOCK\b|\bfor \(int (\w+) = [^;]*;[^;]*\b\1 < (n_\w+)", match.group(2))
+                findings += [f"{path}: a work-item of {match.group(1)} goes through many numbers alone; give each block to a crew (FOR_EACH_CREW)"
+                             for _ in loops[:1]]
+    return findings
+
+
 law_examples = {
     "pointer": {"kernels/a.h": "LAW void f(lane_mat3 *a)\n"}, "arrow": {"kernels/a.h": "a->x = b;\n"},
     "address": {"kernels/a.h": "f(&a);\n"}, "index": {"kernels/a.h": "x[3]\n"},
@@ -88,7 +100,14 @@ for sound in ("x = REAL(0.5) * STATE(1e-3) + (coeff)2.5;\n", "/* 0.5 */ a.x2 = b
     assert not literals({"kernels/a.cl": sound}), sound
 for sound in ("x = a & 1 && b;\n", "LAW lane f(lane a, lane b) { return a * b; }\n", "#include \"vec.h\"\n"):
     assert not laws({"kernels/a.h": sound}), sound
+alone_examples = {
+    "block": {"kernels/a.cl": "KERNEL void f(int n_blocks)\n{\n    FOR_EACH_ITEM(b, n_blocks) { for (int i = b * A_BLOCK; i < e; ++i) s += x[i]; }\n}\n"},
+    "all": {"kernels/a.cl": "KERNEL void f(int n, int n_all)\n{\n    FOR_EACH_ITEM(k, n) { for (int b = 0; b < n_all; ++b) s += x[b]; }\n}\n"},
+}
+for sound in ("FOR_EACH_CREW(b, n) { for (int i = b * A_BLOCK; i < e; ++i) s += x[i]; }", "FOR_EACH_ITEM(e, n_rows) { for (int c = 0; c < 3; ++c) x[c] = 0; }"):
+    assert not alone({"kernels/a.cl": f"KERNEL void f(int n)\n{{\n    {sound}\n}}\n"}), sound
 kernels = repository.read(r"^kernels/.*\.(h|cl)$")
 repository.finish([repository.report("laws", laws, kernels, law_examples),
                    repository.report("literals", literals, kernels, literal_examples),
+                   repository.report("work-items alone", alone, kernels, alone_examples),
                    repository.report("idle laws", idle, kernels, {"one": {"kernels/a.h": "LAW lane f(lane a)\n{\n    return a;\n}\n"}})])

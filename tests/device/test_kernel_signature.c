@@ -20,10 +20,10 @@ static void a_parameter_list_is_read_letter_by_letter(void **unused)
     assert_int_equal(of.use[1], BRC_USE_VALUE);
     assert_int_equal(of.use[2], BRC_USE_OWN);
     assert_int_equal(of.use[3], BRC_USE_UPDATE);
-    brc_kernel_signature_read("vector_gather", &of);
-    assert_string_equal(of.kinds, "ibbb");
-    assert_int_equal(of.use[2], BRC_USE_GATHER);
-    assert_int_equal(of.use[3], BRC_USE_PUT);
+    brc_kernel_signature_read("contact_pieces", &of);
+    assert_string_equal(of.kinds, "isssbbbbb");
+    assert_int_equal(of.use[7], BRC_USE_GATHER);
+    assert_int_equal(of.use[8], BRC_USE_PUT);
     brc_kernel_signature_read("vector_ax", &of); /* the beginning of a name is another name */
     assert_int_equal(of.n, 0);
 }

@@ -17,7 +17,7 @@ BUDGET = {
     "cbm_force_pass": (128, 80), "kinetic_energy": (32, 32), "guard_probe": (40, 40), "vector_sum": (32, 32),
 }
 # Kernels that keep arrays in local memory, and how many bytes at most, with what they call; every other has none.
-ARRAYS = {"contact_cells": 15104, "fracture_stress_second": 2048, "rim_flux": 272, "rim_force": 272, "contact_drift_mean": 128,
+ARRAYS = {"contact_cells": 15104, "fracture_stress_second": 2048, "rim_flux": 272, "rim_force": 272,
           "block6_precondition": 96, "multigrid_step": 96, "closed_again": 96}  # the last: only in steps with breaks
 
 

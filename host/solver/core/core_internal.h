@@ -22,10 +22,10 @@ typedef struct brc_hook_list {
 } brc_hook_list;
 
 struct brc_rings {
-    brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *forget, *replace, *replace_turns, *delta, *book;
+    brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *take_back, *forget, *replace, *replace_turns, *delta,
+        *book;
     brc_buffer *touched, *level; /* [n_rows] */
-    brc_buffer *count;           /* [BRC_RING_KINDS][blocks + 1] */
-    int32_t *count_read;         /* the same on the host */
+    brc_buffer *count;           /* [lists][blocks], then what each list holds */
     brc_buffer *force, *torque;  /* [n_rows][3] of listed elements; the others hold nothing of meaning */
     brc_ring_list around;        /* the bonds that broke in this step */
     double half_kick;            /* brc_rings_begin */
@@ -53,7 +53,6 @@ struct brc_core {
     brc_buffer *orientation, *spin, *torque;                     /* published */
     brc_buffer *moved, *lost_numerical, *lost_damping;           /* only with these effects */
     brc_buffer *elastic_energy, *stabilisation_energy, *kinetic; /* [n_rows] scratch of the ledger */
-    brc_buffer *listed;                                          /* kinetic, as scratch for numbers of a list */
     brc_buffer *partial;                                         /* block sums */
 
     int n_effects; /* of this run (hooks.c) */

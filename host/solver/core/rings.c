@@ -1,5 +1,6 @@
 #include "core_internal.h"
 #include "../../device/shares.h"
+#include <string.h>
 
 enum { BLOCK = 1024 }; /* SCAN_BLOCK of portable.h */
 
@@ -10,7 +11,8 @@ static int32_t blocks_of(const brc_simulation *s)
 
 BRC_WANTED(of_cells, w->scene->has_fracture &&brc_wants_cells(w))
 BRC_WANTED(softening_cells, of_cells(w) && w->softens)
-BRC_COUNTED(each_count, BRC_RING_KINDS *(int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1))
+enum { LISTS = BRC_RING_KINDS + 1 }; /* and who is touched by marks of bonds that hold */
+BRC_COUNTED(each_count, LISTS *(int64_t)((w->layout->n_rows + BLOCK - 1) / BLOCK + 1))
 
 #define AT(member) BRC_FIELD_AT(brc_rings, member)
 static const brc_field_row rows[] = {
@@ -78,6 +80,7 @@ static brc_status make_passes(brc_simulation *s, brc_rings *r)
         BRC_PASS(&r->count_pass, "ring_count", "n which"),
         BRC_PASS(&r->tops, "ring_tops", "n_blocks"),
         BRC_PASS(&r->list_pass, "ring_list", "n which next upto_0 upto_1 upto_2 upto_3"),
+        BRC_PASS(&r->take_back, "ring_take_back", NULL),
         BRC_PASS(&r->forget, "ring_forget", "list"),
         BRC_PASS(&r->replace, "ring_replace", "list")};
     BRC_TRY(BRC_PASSES_MAKE(s, &rings, of_rings));
@@ -102,8 +105,6 @@ brc_status brc_rings_create(brc_simulation *s, brc_rings **out)
     brc_rings *r = *out;
     BRC_TRY(make_passes(s, r));
     BRC_TRY(brc_fields_create(s->device, &brc_ring_fields, &s->wants, r));
-    BRC_TRY(BRC_ALLOCATE(s->context, &r->count_read, BRC_RING_KINDS * ((int64_t)blocks_of(s) + 1),
-                         "rings around broken bonds"));
     return brc_fields_create(s->device, &brc_ring_list_fields, &s->wants, &r->around);
 }
 
@@ -114,7 +115,6 @@ void brc_rings_free(brc_rings **rings)
     brc_fields_free(&brc_ring_fields, r);
     brc_fields_free(&brc_ring_list_fields, &r->around);
     brc_rows_among_free(&r->around.among);
-    brc_memory_free(r->count_read);
     brc_memory_free(r);
     *rings = NULL;
 }
@@ -139,24 +139,44 @@ static brc_status share_list(brc_simulation *s, brc_rings *r, brc_ring_list *lis
 
 enum { FOUND, ALL, TOUCHED, KEPT, PLACED }; /* as in rings.cl */
 
-static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
+static brc_status count_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out, bool *marked)
 {
     const int32_t n = s->layout->n_rows, n_blocks = blocks_of(s);
+    int32_t held[LISTS];
     BRC_TRY(BRC_RUN(r->count_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}));
-    BRC_TRY(BRC_RUN(r->tops, BRC_RING_KINDS, {"n_blocks", BRC_INT(n_blocks)}));
-    BRC_TRY(brc_buffer_read(r->count, 0, r->count_read, brc_buffer_bytes(r->count)));
-    for (int k = 0; k < BRC_RING_KINDS; ++k)
-        out->n[k] = r->count_read[k * (n_blocks + 1) + n_blocks];
+    BRC_TRY(BRC_RUN(r->tops, LISTS, {"n_blocks", BRC_INT(n_blocks)}));
+    BRC_TRY(brc_buffer_read(r->count, (int64_t)sizeof *held * LISTS * n_blocks, held, sizeof held));
+    memcpy(out->n, held, sizeof out->n);
+    *marked = held[BRC_RING_KINDS] > 0;
+    return BRC_OK;
+}
+
+/* As it was counted. */
+static brc_status fill_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
+{
+    const int32_t n = s->layout->n_rows, n_blocks = blocks_of(s);
     BRC_TRY(BRC_RUN(r->list_pass, n_blocks, {"n", BRC_INT(n)}, {"which", BRC_INT(which)}, {"next", BRC_BUF(r->count)},
                     {"upto_0", BRC_BUF(out->upto[0])}, {"upto_1", BRC_BUF(out->upto[1])},
                     {"upto_2", BRC_BUF(out->upto[2])}, {"upto_3", BRC_BUF(out->upto[3])}));
     return share_list(s, r, out);
 }
 
-brc_status brc_rings_find(brc_simulation *s, brc_rings *r)
+static brc_status make_list(brc_simulation *s, brc_rings *r, int which, brc_ring_list *out)
+{
+    bool marked;
+    BRC_TRY(count_list(s, r, which, out, &marked));
+    return fill_list(s, r, which, out);
+}
+
+brc_status brc_rings_find(brc_simulation *s, brc_rings *r, bool *marked)
 {
     BRC_TRY(spread(s, r, false, 1, 1));
-    return make_list(s, r, FOUND, &r->around);
+    return count_list(s, r, FOUND, &r->around, marked);
+}
+
+brc_status brc_rings_list_found(brc_simulation *s, brc_rings *r)
+{
+    return fill_list(s, r, FOUND, &r->around);
 }
 
 brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last)
@@ -166,10 +186,26 @@ brc_status brc_rings_spread(brc_simulation *s, brc_rings *r, int first, int last
     return BRC_OK;
 }
 
-brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_rings_closing how, brc_ring_list *out)
+static int closing(brc_rings *r, brc_rings_closing how)
 {
     r->placed = how == BRC_RINGS_PLACE;
-    return make_list(s, r, r->placed ? PLACED : how == BRC_RINGS_KEEP ? KEPT : ALL, out ? out : &r->around);
+    return r->placed ? PLACED : how == BRC_RINGS_KEEP ? KEPT : ALL;
+}
+
+brc_status brc_rings_close(brc_simulation *s, brc_rings *r, brc_rings_closing how, brc_ring_list *out)
+{
+    return make_list(s, r, closing(r, how), out ? out : &r->around);
+}
+
+brc_status brc_rings_count(brc_simulation *s, brc_rings *r, bool *marked)
+{
+    BRC_TRY(count_list(s, r, ALL, &r->around, marked));
+    return *marked ? brc_pass_run(r->take_back, s->layout->n_rows) : BRC_OK;
+}
+
+brc_status brc_rings_list(brc_simulation *s, brc_rings *r, brc_rings_closing how)
+{
+    return fill_list(s, r, closing(r, how), &r->around);
 }
 
 brc_status brc_rings_forget(brc_rings *r)
@@ -265,8 +301,7 @@ brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, br
     *out = 0;
     if (n == 0) return BRC_OK;
     brc_rows_among *const outer = brc_device_keep_among(s->device, list->among);
-    const brc_status status = brc_vector_gather(s, n, list->upto[k], x, s->core->listed);
+    const brc_status status = brc_vector_sum_listed_later(s, list->upto[k], n, x, out);
     brc_device_keep_among(s->device, outer);
-    BRC_TRY(status);
-    return brc_vector_sum(s, s->core->listed, n, out);
+    return status;
 }

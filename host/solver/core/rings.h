@@ -39,8 +39,10 @@ brc_scope brc_scope_of_rings(const brc_rings *rings, const brc_scope *outer);
  * none). */
 extern const brc_field_table brc_ring_fields, brc_ring_list_fields, brc_open_list_fields, brc_bonded_list_fields;
 /* What is new in ring 0 (touched) and ring 1 since the last list was closed: rings->around, up to n[0] touched ones
- * that were found before, up to n[1] touched ones that were not, up to n[2] those of ring 1 alone. */
-brc_status brc_rings_find(brc_simulation *s, brc_rings *rings);
+ * that were found before, up to n[1] touched ones that were not, up to n[2] those of ring 1 alone. First they are
+ * counted; *marked: whether marks of bonds that hold are among what touched some. */
+brc_status brc_rings_find(brc_simulation *s, brc_rings *rings, bool *marked);
+brc_status brc_rings_list_found(brc_simulation *s, brc_rings *rings);
 /* Those that were touched by now, in n[0] of rings->around. */
 brc_status brc_rings_list_touched(brc_simulation *s, brc_rings *rings);
 /* Rings first to last around all that were touched, into rings->level: 1 + the ring. */
@@ -50,6 +52,10 @@ brc_status brc_rings_spread(brc_simulation *s, brc_rings *rings, int first, int 
  * to 2 until brc_rings_forget. out NULL: rings->around. */
 typedef enum brc_rings_closing { BRC_RINGS_DROP, BRC_RINGS_KEEP, BRC_RINGS_PLACE } brc_rings_closing;
 brc_status brc_rings_close(brc_simulation *s, brc_rings *rings, brc_rings_closing how, brc_ring_list *out);
+/* In two parts, with rings->around. First all of them are counted; where *marked as above, the rings 2 and 3 are taken
+ * back, and there is no second part. */
+brc_status brc_rings_count(brc_simulation *s, brc_rings *rings, bool *marked);
+brc_status brc_rings_list(brc_simulation *s, brc_rings *rings, brc_rings_closing how);
 brc_status brc_rings_forget(brc_rings *rings);
 /* Elements whose number is above 0 are touched, and no others. */
 brc_status brc_rings_seed(brc_simulation *s, brc_rings *rings, brc_buffer *number);
@@ -72,7 +78,7 @@ brc_status brc_rings_end(brc_simulation *s, const brc_rings *rings);
  * their difference over half a step; of those up to k, which brc_rims_force has replaced, what that loses is booked
  * too. */
 brc_status brc_rings_replace(brc_simulation *s, const brc_rings *rings, int inner, int k);
-/* Sum of x [n_rows] over the rings 0 to k, in the order of the list. */
+/* Sum of x [n_rows] over the rings 0 to k, in the order of the list, later (brc_vector_sum_later). */
 brc_status brc_rings_sum(brc_simulation *s, const brc_ring_list *list, int k, brc_buffer *x, double *out);
 
 #endif

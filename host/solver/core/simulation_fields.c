@@ -10,7 +10,8 @@ BRC_WANTED(bond_parts, brc_wants_deforming(w) && w->many_materials)
 BRC_WANTED(numerical_losses, w->tchamwa || (brc_wants_deforming(w) && w->scene->has_fracture))
 
 /* Blocks of a sum over three numbers a row (vector.cl). */
-BRC_COUNTED(each_partial, (3 * (int64_t)w->layout->n_rows + 1023) / 1024 + 1)
+/* Of sums over blocks of 1024 of as many as 3 n_rows numbers; with fracture of all that a step with breaks asks for. */
+BRC_COUNTED(each_partial, (w->scene->has_fracture ? 12 : 3) * (((int64_t)w->layout->n_rows + 1023) / 1024 + 1))
 
 #define AT(member) BRC_FIELD_AT(struct brc_core, member)
 static const brc_field_row rows[] = {
@@ -43,7 +44,6 @@ BRC_FIELD_TABLE(brc_state_fields, "state", BRC_LIFE_RUN, NULL, rows);
 brc_status brc_simulation_fields_create(brc_simulation *s)
 {
     BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s->core));
-    BRC_TRY(brc_buffer_create_scratch(s->core->kinetic, &s->core->listed));
     if (!s->model->turns) return BRC_OK;
     BRC_LOCAL(s->context, 4 * (int64_t)s->layout->n_rows, double, upright, "orientations");
     for (int64_t r = 0; r < s->layout->n_rows; ++r)
@@ -54,7 +54,6 @@ brc_status brc_simulation_fields_create(brc_simulation *s)
 void brc_simulation_fields_free(brc_simulation *s)
 {
     if (!s->core) return;
-    brc_buffer_free(&s->core->listed);
     brc_fields_free(&brc_state_fields, s->core);
 }
 

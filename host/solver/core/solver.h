@@ -192,7 +192,7 @@ brc_status brc_force_around_breaks(brc_simulation *s, const struct brc_rings *ri
 brc_status brc_force_refresh(brc_simulation *s);
 /* For outputs after the state moved. */
 brc_status brc_force_energies(brc_simulation *s, double *elastic, double *stabilisation);
-brc_status brc_force_held_energy(brc_simulation *s, double *out);
+brc_status brc_force_held_energy(brc_simulation *s, double *out); /* later (brc_vector_sum_later) */
 
 /* ---- phases.c ---- */
 /* The watch goes on in `phase`; returns the one before, to go back to. A failure need not: the run ends. */

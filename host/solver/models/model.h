@@ -43,8 +43,9 @@ typedef struct brc_model_breaking {
     const char *record; /* kernel that records the stresses of elements, for criteria of elements */
     /* Branches of all half-edges, for the same. */
     brc_status (*branches)(struct brc_simulation *s, struct brc_buffer **out);
-    /* Of elements that lost bonds; *left: of how many the other bonds, marked now, break in turn. */
-    brc_status (*rebuild)(struct brc_simulation *s, double *left);
+    /* Of elements that lost bonds. loosens: bonds that are left to one may be marked now, and break in turn. */
+    brc_status (*rebuild)(struct brc_simulation *s);
+    bool loosens;
     /* Whether the list of rings is to be placed (rings.h); NULL: never. */
     bool (*places)(const struct brc_simulation *s, const struct brc_rings *rings);
     /* Criteria of bonds: those above `share` of their limit are marked, `found` of elements or groups counts them. */
@@ -57,8 +58,8 @@ typedef struct brc_model_breaking {
     brc_status (*replace_around)(struct brc_simulation *s, const struct brc_rings *rings);
     /* Energy of rings 0 and 1 of rings->around, elastic and of stabilisation, but for what both sides of a break have
      * in common; found: of what brc_rings_find has found last, before its bonds break. That of held faces is apart
-     * [J]. */
-    brc_status (*energy_around)(struct brc_simulation *s, const struct brc_rings *rings, bool found, double *out);
+     * [J]. Later (brc_vector_sum_later): part[0] - part[1] + part[2] - part[3]. */
+    brc_status (*energy_around)(struct brc_simulation *s, const struct brc_rings *rings, bool found, double part[4]);
 } brc_model_breaking;
 
 /* Bonds that open against a cohesion before they break, and broken ones that still bear. Each does nothing where there
@@ -77,7 +78,8 @@ typedef struct brc_model_cohesion {
     brc_status (*change)(struct brc_simulation *s, double half_kick); /* after that */
     brc_status (*refresh)(struct brc_simulation *s);                  /* and after energies were found */
     brc_status (*settle)(struct brc_simulation *s, const struct brc_ring_list *around); /* and shared out */
-    brc_status (*stored)(struct brc_simulation *s, double *out); /* energy that broken bonds hold [J] */
+    brc_status (*stored)(struct brc_simulation *s, double *out); /* energy that broken bonds hold [J], later
+                                                                     (brc_vector_sum_later) */
     /* Of what steps ahead of what is known change (effects/fracture/ahead.h). */
     brc_status (*store_ahead)(struct brc_simulation *s, struct brc_state_store *store);
 } brc_model_cohesion;

@@ -11,11 +11,16 @@ brc_status brc_vector_kernels_find(brc_simulation *s);
 void brc_vector_kernels_free(brc_simulation *s);
 /* Sum of count state numbers, and dot product, in fixed blocks. */
 brc_status brc_vector_sum(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
+/* Sums that one read brings: of count state numbers, of the n rows of a list. Now or later, at the latest after
+ * brc_vector_sums, what each comes to is in its *out, which must live until then. */
+brc_status brc_vector_sum_later(brc_simulation *s, brc_buffer *x, int64_t count, double *out);
+brc_status brc_vector_sum_listed_later(brc_simulation *s, brc_buffer *list, int32_t n, brc_buffer *x, double *out);
+brc_status brc_vector_sums(brc_simulation *s);
+/* After a failure: nobody waits for them. */
+void brc_vector_sums_forget(brc_simulation *s);
 brc_status brc_vector_dot(brc_simulation *s, brc_buffer *x, brc_buffer *y, int64_t count, double *out);
 /* y = a x + y, of count state numbers. */
 brc_status brc_vector_axpy(brc_simulation *s, int64_t count, double a, brc_buffer *x, brc_buffer *y);
-/* y = x[index], n numbers. */
-brc_status brc_vector_gather(brc_simulation *s, int32_t n, brc_buffer *index, brc_buffer *x, brc_buffer *y);
 /* Orientations (quaternions) of small rotations theta [n_rows][3]. */
 brc_status brc_vector_small_rotation(brc_simulation *s, brc_buffer *theta, brc_buffer *orientation);
 /* The same, added to what they are: orientation turned by theta. */

@@ -281,32 +281,48 @@ KERNEL void contact_gather_forces(int n_with_pairs, OWN(int) with_pairs, OWN(int
 /* Of every block of 256 pairs the force and torque on each striker: part [n_strikers][n_blocks][6]; then their sums:
  * load [n_strikers][6]. */
 #define CONTACT_PAIRS 256
-KERNEL void contact_striker_parts(int n_items, int n_blocks, int n_pairs, int n, int stride, int torque_at,
+KERNEL void contact_striker_parts(int n_crew_parts, int n_blocks, int n_pairs, int n, int stride, int torque_at,
                                   OWN(int) ends, GATHER(int) piece_striker, OWN(int) touch, OWN(state) result,
                                   PUT(state) part)
 {
-    FOR_EACH_ITEM(k, n_items) {
+    CREW_STAGE(state, row);
+    FOR_EACH_CREW(k, n_crew_parts) {
         const int striker = k / n_blocks, begin = k % n_blocks * CONTACT_PAIRS,
                   end = begin + CONTACT_PAIRS < n_pairs ? begin + CONTACT_PAIRS : n_pairs;
-        svec3 push = {0, 0, 0}, turn = {0, 0, 0};
-        for (int p = begin; p < end; ++p) {
-            const int j = ends[2 * (brc_size)p + 1];
-            GLOBAL const state *restrict one = result + (brc_size)p * (brc_size)stride;
-            if (j < n || piece_striker[j - n] != striker || !touch[p]) continue;
-            push = svec3_sub(push, svec3_load(one, 0));
-            turn = svec3_add(turn, svec3_load(one, (brc_size)torque_at));
+        state sum[CREW_SHARE(6)];
+        for (int i = 0; i < CREW_SHARE(6); ++i) sum[i] = 0;
+        for (int first = begin; first < end; first += CREW) {
+            const int p = first + CREW_PLACE, j = p < end ? ends[2 * (brc_size)p + 1] : 0;
+            svec3 push = {0, 0, 0}, turn = {0, 0, 0};
+            if (j >= n && piece_striker[j - n] == striker && touch[p]) {
+                GLOBAL const state *restrict one = result + (brc_size)p * (brc_size)stride;
+                push = svec3_scale(STATE(-1), svec3_load(one, 0));
+                turn = svec3_load(one, (brc_size)torque_at);
+            } else if (CREW == 1)
+                continue;
+            const state now[6] = {push.x, push.y, push.z, turn.x, turn.y, turn.z};
+            for (int c = 0; c < 6; ++c) CREW_PUT(row, CREW_AT(CREW_PLACE, c, 6), now[c]);
+            CREW_WAIT();
+            for (int i = 0; i < CREW_SHARE(6); ++i)
+                for (int t = 0; t < CREW && CREW_COLUMN(i) < 6; ++t)
+                    sum[i] += CREW_NUMBER(row, CREW_AT(t, CREW_COLUMN(i), 6), now[i]);
+            CREW_WAIT();
         }
-        svec3_store(part, (brc_size)k * 6, push);
-        svec3_store(part, (brc_size)k * 6 + 3, turn);
+        for (int i = 0; i < CREW_SHARE(6); ++i)
+            if (CREW_COLUMN(i) < 6) part[(brc_size)k * 6 + (brc_size)CREW_COLUMN(i)] = sum[i];
     }
 }
-KERNEL void contact_striker_load(int n_strikers, int n_blocks, OWN(state) part, PUT(state) load)
+KERNEL void contact_striker_load(int n_crew_parts, int n_blocks, OWN(state) part, PUT(state) load)
 {
-    FOR_EACH_ITEM(k, n_strikers) {
-        state sum[6] = {0, 0, 0, 0, 0, 0};
+    FOR_EACH_CREW(k, n_crew_parts) {
+        state sum[CREW_SHARE(6)];
+        for (int i = 0; i < CREW_SHARE(6); ++i) sum[i] = 0;
+        LOADS_TOGETHER(16)
         for (int b = 0; b < n_blocks; ++b)
-            for (int c = 0; c < 6; ++c)
-                sum[c] += part[((brc_size)k * (brc_size)n_blocks + (brc_size)b) * 6 + (brc_size)c];
-        for (int c = 0; c < 6; ++c) load[(brc_size)k * 6 + (brc_size)c] = sum[c];
+            for (int i = 0; i < CREW_SHARE(6); ++i)
+                if (CREW_COLUMN(i) < 6)
+                    sum[i] += part[((brc_size)k * (brc_size)n_blocks + (brc_size)b) * 6 + (brc_size)CREW_COLUMN(i)];
+        for (int i = 0; i < CREW_SHARE(6); ++i)
+            if (CREW_COLUMN(i) < 6) load[(brc_size)k * 6 + (brc_size)CREW_COLUMN(i)] = sum[i];
     }
 }

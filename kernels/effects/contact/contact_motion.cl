@@ -44,60 +44,73 @@ LAW svec3 contact_way(OWN(state) place, OWN(state) displacement, svec3 was, int 
 #define CONTACT_PART 16
 #define CONTACT_DRIFT 14
 /* Sums over the exposed elements of each block: their number, way, velocity, acceleration and place when the list was
- * made; place . way, place . velocity, place . place. part [n_blocks][CONTACT_PART]. */
-KERNEL void contact_drift(int n_blocks, int n, OWN(int) exposed, OWN(state) place, OWN(state) displacement,
+ * made; place . way, place . velocity, place . place. part [n_crews][CONTACT_PART]. */
+KERNEL void contact_drift(int n_crews, int n, OWN(int) exposed, OWN(state) place, OWN(state) displacement,
                           OWN(state) built, OWN(state) velocity, OWN(state) force, OWN(state) mass, PUT(state) part)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    CREW_STAGE(state, row);
+    FOR_EACH_CREW(b, n_crews) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
-        const brc_size to = (brc_size)b * CONTACT_PART;
-        svec3 way = {0, 0, 0}, speed = {0, 0, 0}, push = {0, 0, 0}, sum = {0, 0, 0};
-        state count = 0, grown = 0, growing = 0, square = 0;
-        for (int e = begin; e < end; ++e)
-            if (exposed[e]) {
+        state sum[CREW_SHARE(CONTACT_PART)];
+        for (int i = 0; i < CREW_SHARE(CONTACT_PART); ++i) sum[i] = 0;
+        for (int first = begin; first < end; first += CREW) {
+            const int e = first + CREW_PLACE;
+            state now[CONTACT_PART];
+            for (int c = 0; c < CONTACT_PART; ++c) now[c] = 0;
+            if (e < end && exposed[e]) {
                 const svec3 was = svec3_load(built, (brc_size)e * 4), d = contact_way(place, displacement, was, e),
-                            v = svec3_load(velocity, (brc_size)e * 3);
-                count += STATE(1);
-                way = svec3_add(way, d);
-                speed = svec3_add(speed, v);
-                push = svec3_add_scaled(push, STATE(1) / mass[e], svec3_load(force, (brc_size)e * 3));
-                sum = svec3_add(sum, was);
-                grown += svec3_dot(was, d);
-                growing += svec3_dot(was, v);
-                square += svec3_dot(was, was);
-            }
-        part[to] = count;
-        svec3_store(part, to + 1, way);
-        svec3_store(part, to + 4, speed);
-        svec3_store(part, to + 7, push);
-        svec3_store(part, to + 10, sum);
-        part[to + 13] = grown;
-        part[to + 14] = growing;
-        part[to + 15] = square;
+                            v = svec3_load(velocity, (brc_size)e * 3),
+                            a = svec3_scale(STATE(1) / mass[e], svec3_load(force, (brc_size)e * 3));
+                now[0] = STATE(1);
+                now[1] = d.x, now[2] = d.y, now[3] = d.z;
+                now[4] = v.x, now[5] = v.y, now[6] = v.z;
+                now[7] = a.x, now[8] = a.y, now[9] = a.z;
+                now[10] = was.x, now[11] = was.y, now[12] = was.z;
+                now[13] = svec3_dot(was, d), now[14] = svec3_dot(was, v), now[15] = svec3_dot(was, was);
+            } else if (CREW == 1)
+                continue;
+            for (int c = 0; c < CONTACT_PART; ++c) CREW_PUT(row, CREW_AT(CREW_PLACE, c, CONTACT_PART), now[c]);
+            CREW_WAIT();
+            for (int i = 0; i < CREW_SHARE(CONTACT_PART); ++i)
+                for (int t = 0; t < CREW && CREW_COLUMN(i) < CONTACT_PART; ++t)
+                    sum[i] += CREW_NUMBER(row, CREW_AT(t, CREW_COLUMN(i), CONTACT_PART), now[i]);
+            CREW_WAIT();
+        }
+        for (int i = 0; i < CREW_SHARE(CONTACT_PART); ++i)
+            if (CREW_COLUMN(i) < CONTACT_PART) part[(brc_size)b * CONTACT_PART + (brc_size)CREW_COLUMN(i)] = sum[i];
     }
 }
-/* One work-item: mean way, velocity, acceleration, middle; growth g [-] and its rate [1/s], least squares, none below
- * 0. drift [CONTACT_DRIFT]. n_items: 1. */
-KERNEL void contact_drift_mean(int n_items, int n_blocks, OWN(state) part, SCATTER(state) drift)
+/* Mean way, velocity, acceleration, middle; growth g [-] and its rate [1/s], least squares, none below 0. drift
+ * [CONTACT_DRIFT]. n_crew_parts: 1. */
+KERNEL void contact_drift_mean(int n_crew_parts, int n_blocks, OWN(state) part, SCATTER(state) drift)
 {
-    FOR_EACH_ITEM(k, n_items) {
-        state sum[CONTACT_PART];
-        for (int c = 0; c < CONTACT_PART; ++c) sum[c] = 0;
+    CREW_STAGE(state, column);
+    FOR_EACH_CREW(k, n_crew_parts) {
+        state own[CREW_SHARE(CONTACT_PART)];
+        for (int i = 0; i < CREW_SHARE(CONTACT_PART); ++i) own[i] = 0;
+        LOADS_TOGETHER(16)
         for (int b = 0; b < n_blocks; ++b)
-            for (int c = 0; c < CONTACT_PART; ++c)
-                sum[c] += part[((brc_size)k + (brc_size)b) * CONTACT_PART + (brc_size)c];
-        const state share = sum[0] > 0 ? STATE(1) / sum[0] : STATE(0);
-        state along = 0, spread = sum[15], rate = 0;
-        for (int c = 0; c < 12; ++c) drift[c] = share * sum[1 + c];
-        for (int c = 0; c < 3; ++c) {
-            along += drift[9 + c] * sum[1 + c];
-            rate += drift[9 + c] * sum[4 + c];
-            spread -= drift[9 + c] * sum[10 + c];
+            for (int i = 0; i < CREW_SHARE(CONTACT_PART); ++i)
+                if (CREW_COLUMN(i) < CONTACT_PART)
+                    own[i] += part[((brc_size)k + (brc_size)b) * CONTACT_PART + (brc_size)CREW_COLUMN(i)];
+        for (int i = 0; i < CREW_SHARE(CONTACT_PART); ++i) CREW_PUT(column, CREW_COLUMN(i), own[i]);
+        CREW_WAIT();
+        if (CREW_FIRST) {
+            state sum[CONTACT_PART];
+            for (int c = 0; c < CONTACT_PART; ++c) sum[c] = CREW_NUMBER(column, c, own[c]);
+            const state share = sum[0] > 0 ? STATE(1) / sum[0] : STATE(0);
+            state along = 0, spread = sum[15], rate = 0;
+            for (int c = 0; c < 12; ++c) drift[c] = share * sum[1 + c];
+            for (int c = 0; c < 3; ++c) {
+                along += drift[9 + c] * sum[1 + c];
+                rate += drift[9 + c] * sum[4 + c];
+                spread -= drift[9 + c] * sum[10 + c];
+            }
+            const state growth = spread > 0 ? (sum[13] - along) / spread : STATE(0),
+                        growing = spread > 0 ? (sum[14] - rate) / spread : STATE(0);
+            drift[12] = growth > 0 ? growth : STATE(0);
+            drift[13] = growing > 0 ? growing : STATE(0);
         }
-        const state growth = spread > 0 ? (sum[13] - along) / spread : STATE(0),
-                    growing = spread > 0 ? (sum[14] - rate) / spread : STATE(0);
-        drift[12] = growth > 0 ? growth : STATE(0);
-        drift[13] = growing > 0 ? growing : STATE(0);
     }
 }
 
@@ -106,20 +119,21 @@ KERNEL void contact_drift_mean(int n_items, int n_blocks, OWN(state) part, SCATT
  * taken off [m]; its speed, and the acceleration squared; way of any of its points less `clear` [m]; speed and
  * acceleration squared. spin: of elements that stand by their rotation. Points of a cell turn and strain with it: the
  * way of its place and bounding_radius times the change of its map; their speeds are taken as twice that of the place
- * where the map follows the neighbours (pose 1). moved [n_blocks][CONTACT_MOVED]. */
-KERNEL void contact_moved(int n_blocks, int n, int pose, OWN(int) exposed, OWN(int) rigid, OWN(state) place,
+ * where the map follows the neighbours (pose 1). moved [n_crews][CONTACT_MOVED]. */
+KERNEL void contact_moved(int n_crews, int n, int pose, OWN(int) exposed, OWN(int) rigid, OWN(state) place,
                           OWN(state) displacement, OWN(coeff) gradient, OWN(state) orientation,
                           OWN(state) bounding_radius, OWN(state) built, OWN(state) posed, OWN(state) clear,
                           OWN(state) velocity, OWN(state) spin, OWN(state) force, OWN(state) mass, GATHER(state) drift,
                           PUT(state) moved)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    CREW_STAGE(state, row);
+    FOR_EACH_CREW(b, n_crews) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
         const svec3 way = svec3_load(drift, 0), speed = svec3_load(drift, 3), push = svec3_load(drift, 6),
                     middle = svec3_load(drift, 9);
         state most[CONTACT_MOVED];
         for (int c = 0; c < CONTACT_MOVED; ++c) most[c] = c == 3 ? -STATE(1e30) : STATE(0);
-        for (int e = begin; e < end; ++e)
+        for (int e = begin + CREW_PLACE; e < end; e += CREW)
             if (exposed[e]) {
                 const svec3 was = svec3_load(built, (brc_size)e * 4), d = contact_way(place, displacement, was, e),
                             v = svec3_load(velocity, (brc_size)e * 3);
@@ -145,7 +159,16 @@ KERNEL void contact_moved(int n_blocks, int n, int pose, OWN(int) exposed, OWN(i
                     follows * svec3_length(v) + turning, svec3_dot(a, a)};
                 for (int c = 0; c < CONTACT_MOVED; ++c) most[c] = now[c] > most[c] ? now[c] : most[c];
             }
-        for (int c = 0; c < CONTACT_MOVED; ++c) moved[(brc_size)b * CONTACT_MOVED + (brc_size)c] = most[c];
+        for (int c = 0; c < CONTACT_MOVED; ++c) CREW_PUT(row, CREW_AT(CREW_PLACE, c, CONTACT_MOVED), most[c]);
+        CREW_WAIT();
+        FOR_CREW_COLUMNS(c, CONTACT_MOVED) {
+            state largest = CREW_NUMBER(row, c, most[c]);
+            for (int t = 1; t < CREW; ++t) {
+                const state other = CREW_NUMBER(row, CREW_AT(t, c, CONTACT_MOVED), most[c]);
+                largest = other > largest ? other : largest;
+            }
+            moved[(brc_size)b * CONTACT_MOVED + (brc_size)c] = largest;
+        }
     }
 }
 
@@ -155,16 +178,28 @@ KERNEL void contact_most(int n, OWN(state) moved, UPDATE(state) most)
     FOR_EACH_ITEM(i, n) { most[i] = moved[i] > most[i] ? moved[i] : most[i]; }
 }
 
-/* Of each block the largest radius of an exposed element, in the first of CONTACT_MOVED columns. */
-KERNEL void contact_largest(int n_blocks, int n, OWN(int) exposed, OWN(state) built, PUT(state) moved)
+/* Of each block the largest radius of an exposed element, and of any, in the first two of CONTACT_MOVED columns. */
+KERNEL void contact_largest(int n_crews, int n, OWN(int) exposed, OWN(state) built, PUT(state) moved)
 {
-    FOR_EACH_ITEM(b, n_blocks) {
+    CREW_STAGE(state, row);
+    FOR_EACH_CREW(b, n_crews) {
         const int begin = b * CONTACT_BLOCK, end = begin + CONTACT_BLOCK < n ? begin + CONTACT_BLOCK : n;
-        state most = 0;
-        for (int e = begin; e < end; ++e)
-            if (exposed[e] && built[(brc_size)e * 4 + 3] > most) most = built[(brc_size)e * 4 + 3];
-        for (int c = 0; c < CONTACT_MOVED; ++c)
-            moved[(brc_size)b * CONTACT_MOVED + (brc_size)c] = c == 0 ? most : STATE(0);
+        state most = 0, any = 0;
+        for (int e = begin + CREW_PLACE; e < end; e += CREW) {
+            const state radius = built[(brc_size)e * 4 + 3];
+            if (exposed[e] && radius > most) most = radius;
+            any = radius > any ? radius : any;
+        }
+        CREW_PUT(row, CREW_AT(CREW_PLACE, 0, 2), most);
+        CREW_PUT(row, CREW_AT(CREW_PLACE, 1, 2), any);
+        CREW_WAIT();
+        for (int t = 0; t < CREW; ++t) {
+            const state one = CREW_NUMBER(row, CREW_AT(t, 0, 2), most), other = CREW_NUMBER(row, CREW_AT(t, 1, 2), any);
+            most = one > most ? one : most;
+            any = other > any ? other : any;
+        }
+        FOR_CREW_COLUMNS(c, CONTACT_MOVED)
+            moved[(brc_size)b * CONTACT_MOVED + (brc_size)c] = c == 0 ? most : c == 1 ? any : STATE(0);
     }
 }
 

@@ -52,6 +52,11 @@ LAW contact_cell contact_cell_of(GATHER(state) built, int e, state per_edge)
                                contact_coordinate(built[(brc_size)e * 4 + 2], per_edge)};
     return cell;
 }
+/* Cell `step` of the 27 about one. */
+LAW contact_cell contact_cell_about(contact_cell home, int step)
+{
+    return (contact_cell){home.x + step % 3 - 1, home.y + step / 3 % 3 - 1, home.z + step / 9 - 1};
+}
 LAW int contact_key(contact_cell cell, int mask)
 {
     const unsigned int mixed =
@@ -116,8 +121,7 @@ KERNEL void contact_again(int m, int whole, state skin, state per_edge, int mask
         if (!whole && fresh[e]) {
             const contact_cell home = contact_cell_of(built, e, per_edge);
             for (int step = 0; step < 27; ++step) {
-                const contact_cell cell = {home.x + step % 3 - 1, home.y + step / 3 % 3 - 1, home.z + step / 9 - 1};
-                const int key = contact_key(cell, mask);
+                const int key = contact_key(contact_cell_about(home, step), mask);
                 for (int at = first[key]; at < last[key]; ++at)
                     if (contact_near(built, e, row[at], skin)) STORE_SAME(again + slot_of[row[at]], 1);
             }
@@ -173,27 +177,40 @@ KERNEL void contact_spread(int n_items, int n, int to, OWN(int) todo, OWN(int) e
     }
 }
 
-/* How many others are near the elements in the slots redo [n_redo], bonds not asked. */
-KERNEL void contact_count(int n_redo, state skin, state per_edge, int mask, int n_pieces, GATHER(state) piece,
+/* Is row j, which has the key of a cell, in that cell, and near e? */
+LAW int contact_is_near(GATHER(state) built, int e, int j, contact_cell cell, state per_edge, state skin)
+{
+    const contact_cell own = contact_cell_of(built, j, per_edge);
+    return j != e && own.x == cell.x && own.y == cell.y && own.z == cell.z && contact_near(built, e, j, skin);
+}
+/* How many others are near an element in those cells that this one of a crew looks through. */
+LAW int contact_near_count(GATHER(state) built, int e, state per_edge, int mask, state skin, GATHER(int) first,
+                           GATHER(int) last, GATHER(int) row)
+{
+    const contact_cell home = contact_cell_of(built, e, per_edge);
+    int near = 0;
+    for (int step = CREW_PLACE; step < 27; step += CREW) {
+        const contact_cell cell = contact_cell_about(home, step);
+        const int key = contact_key(cell, mask);
+        for (int at = first[key]; at < last[key]; ++at)
+            near += contact_is_near(built, e, row[at], cell, per_edge, skin);
+    }
+    return near;
+}
+
+/* How many others are near the elements in the slots redo [n_crew_parts], bonds not asked. */
+KERNEL void contact_count(int n_crew_parts, state skin, state per_edge, int mask, int n_pieces, GATHER(state) piece,
                           GATHER(int) piece_kind, OWN(int) redo, OWN(int) listed, GATHER(state) built,
                           GATHER(int) first, GATHER(int) last, GATHER(int) row, PUT(int) count)
 {
-    FOR_EACH_ITEM(item, n_redo) {
+    CREW_ROOM(room);
+    FOR_EACH_CREW(item, n_crew_parts) {
         const int k = redo[item], e = listed[k];
-        const contact_cell home = contact_cell_of(built, e, per_edge);
-        int near = 0;
-        for (int step = 0; step < 27; ++step) {
-            const contact_cell cell = {home.x + step % 3 - 1, home.y + step / 3 % 3 - 1, home.z + step / 9 - 1};
-            const int key = contact_key(cell, mask);
-            for (int at = first[key]; at < last[key]; ++at) {
-                const int j = row[at];
-                const contact_cell own = contact_cell_of(built, j, per_edge);
-                near +=
-                    j != e && own.x == cell.x && own.y == cell.y && own.z == cell.z && contact_near(built, e, j, skin);
-            }
-        }
-        for (int q = 0; q < n_pieces; ++q) near += contact_piece_gap(built, e, piece, piece_kind, q) < skin;
-        count[k] = near;
+        int near = contact_near_count(built, e, per_edge, mask, skin, first, last, row);
+        for (int q = CREW_PLACE; q < n_pieces; q += CREW)
+            near += contact_piece_gap(built, e, piece, piece_kind, q) < skin;
+        near = CREW_ALL(room, near);
+        if (CREW_FIRST) count[k] = near;
     }
 }
 
@@ -227,66 +244,86 @@ LAW contact_body contact_body_of(GATHER(state) corner, GATHER(state) plane, GATH
                           convex_map_of(smat3_load(posed, (brc_size)e * 9)), built[(brc_size)e * 4 + 3], rigid[e]};
 }
 
+/* Does a plane keep two apart? Both sides of a pair ask alike, from the lower id. */
+LAW int contact_kept_apart(GATHER(state) corner, GATHER(state) plane, GATHER(int) loop_start, GATHER(int) loop,
+                           GATHER(state) radius, GATHER(int) corner_start, GATHER(int) face_start, GATHER(int) id,
+                           GATHER(int) rigid, GATHER(state) built, GATHER(state) posed, int e, int j, state skin)
+{
+    const int low = id[e] < id[j] ? e : j, high = id[e] < id[j] ? j : e;
+    const contact_body a = contact_body_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id, rigid,
+                                           built, posed, low);
+    const contact_body b = contact_body_of(corner, plane, loop_start, loop, radius, corner_start, face_start, id, rigid,
+                                           built, posed, high);
+    const svec3 branch = svec3_sub(svec3_load(built, (brc_size)high * 4), svec3_load(built, (brc_size)low * 4));
+    return contact_parted(a, b, convex_of(branch), skin);
+}
+
 /* The entries of the elements in the slots redo, sorted by id; owned [m]: pairs in which its id is the lower one; any
- * [m]: whether there are entries. Both sides of a pair ask contact_parted alike, from the lower id. clear [n]:
- * contact_motion.cl. */
-KERNEL void contact_fill(int n_redo, int rows, int pose, state skin, state per_edge, int mask, int within, int n_pieces,
-                         GATHER(state) piece, GATHER(int) piece_kind, OWN(int) redo, OWN(int) listed,
+ * [m]: whether there are entries. In pair: who is near, then who of them may touch. clear [n]: contact_motion.cl. */
+KERNEL void contact_fill(int n_crew_parts, int rows, int pose, state skin, state per_edge, int mask, int within,
+                         int n_pieces, GATHER(state) piece, GATHER(int) piece_kind, OWN(int) redo, OWN(int) listed,
                          GATHER(state) built, GATHER(state) posed, GATHER(int) rigid, GATHER(state) corner,
                          GATHER(state) plane, GATHER(int) loop_start, GATHER(int) loop, GATHER(state) radius,
                          GATHER(int) corner_start, GATHER(int) face_start, GATHER(int) first, GATHER(int) last,
                          GATHER(int) row, GATHER(int) id, GATHER(int) body, GATHER(int) row_start,
-                         GATHER(int) neighbour, OWN(int) original, OWN(int) start, UPDATE(int) entry, PUT(int) used,
-                         PUT(int) owned, PUT(int) any, PUT(state) clear)
+                         GATHER(int) neighbour, OWN(int) original, OWN(int) start, PUT(int) entry, UPDATE(int) pair,
+                         PUT(int) used, PUT(int) owned, PUT(int) any, PUT(state) clear)
 {
-    FOR_EACH_ITEM(item, n_redo) {
+    CREW_ROOM(room);
+    CREW_STAGE(state, gap_of);
+    FOR_EACH_CREW(item, n_crew_parts) {
         const int k = redo[item], e = listed[k], begin = start[k];
         const contact_cell home = contact_cell_of(built, e, per_edge);
-        int n = 0, own_pairs = 0;
-        state free_way = STATE(1e30);
-        for (int step = 0; step < 27; ++step) {
-            const contact_cell cell = {home.x + step % 3 - 1, home.y + step / 3 % 3 - 1, home.z + step / 9 - 1};
+        int near = CREW > 1 ? contact_near_count(built, e, per_edge, mask, skin, first, last, row) : 0,
+            to = begin + CREW_BEFORE(room, near);
+        near = CREW_ALL(room, near);
+        for (int step = CREW_PLACE; step < 27; step += CREW) {
+            const contact_cell cell = contact_cell_about(home, step);
             const int key = contact_key(cell, mask);
-            for (int at = first[key]; at < last[key]; ++at) {
-                const int j = row[at];
-                const contact_cell own = contact_cell_of(built, j, per_edge);
-                if (j == e || own.x != cell.x || own.y != cell.y || own.z != cell.z || !contact_near(built, e, j, skin))
-                    continue;
-                if (!contact_allowed(e, j, within, body, row_start, neighbour, original)) continue;
-                if (pose != 0) {
-                    const int low = id[e] < id[j] ? e : j, high = id[e] < id[j] ? j : e;
-                    const contact_body a = contact_body_of(corner, plane, loop_start, loop, radius, corner_start,
-                                                           face_start, id, rigid, built, posed, low);
-                    const contact_body b = contact_body_of(corner, plane, loop_start, loop, radius, corner_start,
-                                                           face_start, id, rigid, built, posed, high);
-                    const svec3 branch =
-                        svec3_sub(svec3_load(built, (brc_size)high * 4), svec3_load(built, (brc_size)low * 4));
-                    const convex_vec toward = convex_of(branch);
-                    if (contact_parted(a, b, toward, skin)) continue;
-                }
-                int to = n;
-                while (to > 0 && id[entry[begin + to - 1]] > id[j]) {
-                    entry[begin + to] = entry[begin + to - 1];
-                    to -= 1;
-                }
-                entry[begin + to] = j;
-                n += 1;
-                own_pairs += id[j] > id[e];
-            }
+            for (int at = first[key]; at < last[key]; ++at)
+                if (contact_is_near(built, e, row[at], cell, per_edge, skin)) CREW_SHARED(pair)[to++] = row[at];
         }
-        for (int q = 0; q < n_pieces; ++q) {
-            const state gap = contact_piece_gap(built, e, piece, piece_kind, q);
-            if (gap < skin) {
-                entry[begin + n] = rows + q; /* ids of pieces follow those of elements */
-                n += 1;
-                own_pairs += 1;
-            } else if (gap < free_way)
-                free_way = gap;
+        if (CREW == 1) near = to - begin;
+        CREW_WAIT();
+        int n = 0, own_pairs = 0;
+        for (int from = 0; from < near; from += CREW) {
+            const int j = from + CREW_PLACE < near ? CREW_SHARED(pair)[begin + from + CREW_PLACE] : e;
+            const int may = j != e && contact_allowed(e, j, within, body, row_start, neighbour, original) &&
+                            !(pose != 0 && contact_kept_apart(corner, plane, loop_start, loop, radius, corner_start,
+                                                              face_start, id, rigid, built, posed, e, j, skin));
+            const int at = begin + n + CREW_BEFORE(room, may);
+            if (may) CREW_SHARED(pair)[at] = j;
+            n += CREW_ALL(room, may);
         }
-        used[k] = n;
-        owned[k] = own_pairs;
-        any[k] = n > 0;
-        clear[e] = free_way;
+        CREW_WAIT();
+        for (int at = CREW_PLACE; at < n; at += CREW) {
+            const int j = CREW_SHARED(pair)[begin + at], own = id[j];
+            int lower = 0;
+            for (int other = 0; other < n; ++other) lower += id[CREW_SHARED(pair)[begin + other]] < own;
+            entry[begin + lower] = j;
+            own_pairs += own > id[e];
+        }
+        state free_way = STATE(1e30);
+        for (int from = 0; from < n_pieces; from += CREW) {
+            const int q = from + CREW_PLACE;
+            const state gap = q < n_pieces ? contact_piece_gap(built, e, piece, piece_kind, q) : STATE(1e30);
+            const int hit = gap < skin, at = begin + n + CREW_BEFORE(room, hit);
+            if (hit) entry[at] = rows + q; /* ids of pieces follow those of elements */
+            if (!hit && gap < free_way) free_way = gap;
+            own_pairs += hit;
+            n += CREW_ALL(room, hit);
+        }
+        own_pairs = CREW_ALL(room, own_pairs);
+        CREW_PUT(gap_of, CREW_PLACE, free_way);
+        CREW_WAIT();
+        for (int t = 0; t < CREW; ++t)
+            free_way = CREW_NUMBER(gap_of, t, free_way) < free_way ? CREW_NUMBER(gap_of, t, free_way) : free_way;
+        if (CREW_FIRST) {
+            used[k] = n;
+            owned[k] = own_pairs;
+            any[k] = n > 0;
+            clear[e] = free_way;
+        }
     }
 }
 

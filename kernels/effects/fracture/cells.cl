@@ -6,8 +6,8 @@
  * Of the entries [n_slots][C]: limit: normal stress at which the bond breaks, CELLS_NEVER where there is none [Pa];
  * twin: the entry of the same bond seen from the other element; alive: 1 while it holds, else 0; mark: 0, or how it
  * breaks at the end of this step; measure: its stress then [Pa]. found, n_marked: of an element or group of elements,
- * how many bonds it marked. touched [n]: 1 for the two elements of every marked bond, 2 once it broke: ring 0 of
- * rings.cl. */
+ * how many bonds it marked. touched [n]: 1 for the two elements of every marked bond, 2 once it broke, 3 where the rest
+ * of an element's bonds are marked then: ring 0 of rings.cl. */
 
 #define CELLS_NEVER REAL(1e30)
 #define CELLS_TENSION 1
@@ -197,15 +197,14 @@ LAW coeff cells_stiffness(cells_sym inverse, cells_sym squares, state x, state y
 
 /* Elements that lost a bond: the inverse of A = sum q s (x) s, smallest limit, marks cleared. An element that its
  * neighbours no longer hold marks the bonds it has left: the smallest eigenvalue of A / (2 V) is below support [n], or
- * it has become stiffer than stiffest [n] [1/m^2], which the time step does not bear. n_marked [n_groups]. */
+ * it has become stiffer than stiffest [n] [1/m^2], which the time step does not bear. */
 KERNEL void cells_rebuild(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
                           OWN(coeff) alive, OWN(coeff) limit, OWN(coeff) inv_volume, OWN(coeff) support,
                           OWN(coeff) stiffest, UPDATE(int) changed, PUT(coeff) least, PUT(coeff) inv_shape,
-                          PUT(int) mark, PUT(coeff) measure, FLAG(int) touched, PUT(state) n_marked)
+                          PUT(int) mark, PUT(coeff) measure, FLAG(int) touched)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(changed, (brc_size)group * W);
-        int count = 0;
         for (int e = group * W; LANE_ANY(some) && e < group * W + W; ++e) {
             if (!changed[e]) continue;
             cells_sym a = {0, 0, 0, 0, 0, 0}, squares = {0, 0, 0, 0, 0, 0}, inverse = {0, 0, 0, 0, 0, 0};
@@ -229,6 +228,7 @@ KERNEL void cells_rebuild(int n_groups, OWN(int) row_start, OWN(int) neighbour, 
             }
             if (!held) inverse = (cells_sym){0, 0, 0, 0, 0, 0};
             cells_put(inv_shape, e, inverse);
+            int count = 0;
             for (int slot = row_start[e / C]; !held && slot < row_start[e / C + 1]; ++slot) {
                 const brc_size entry = (brc_size)slot * C + e % C;
                 if (!(alive[entry] > 0)) continue;
@@ -237,9 +237,9 @@ KERNEL void cells_rebuild(int n_groups, OWN(int) row_start, OWN(int) neighbour, 
                 if (touched[neighbour[entry]] == 0) STORE_SAME(touched + neighbour[entry], 1);
                 count += 1;
             }
+            if (count) STORE_SAME(touched + e, 3);
             least[e] = weakest;
         }
-        n_marked[group] = (state)count;
     }
 }
 

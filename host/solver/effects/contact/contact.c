@@ -326,6 +326,7 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
         BRC_TRY(
             brc_strikers_advance(s, -half_kick, 0, 0, false)); /* ... and the next one opens with what is there now */
     BRC_TRY(brc_contact_stored(s, &after));
+    BRC_TRY(brc_vector_sums(s));
     c->energy_from_breaks += after - before;
     return BRC_OK;
 }
@@ -335,7 +336,7 @@ brc_status brc_contact_broken(brc_simulation *s, double half_kick)
 brc_status brc_contact_stored(brc_simulation *s, double *out)
 {
     *out = 0;
-    return s->contact ? brc_vector_sum(s, s->contact->stored, s->layout->n_rows, out) : BRC_OK;
+    return s->contact ? brc_vector_sum_later(s, s->contact->stored, s->layout->n_rows, out) : BRC_OK;
 }
 
 brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger)
@@ -344,6 +345,7 @@ brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger)
     if (!s->contact) return BRC_OK;
     double spin;
     BRC_TRY(brc_contact_stored(s, &ledger->contact));
+    BRC_TRY(brc_vector_sums(s));
     BRC_TRY(brc_contact_spin_energy(s, &spin));
     ledger->kinetic += spin;
     BRC_TRY(brc_vector_sum(s, s->contact->lost_friction, n, &ledger->friction));

@@ -68,7 +68,7 @@ brc_status brc_contact_list_bonded(brc_simulation *s);
  * list. */
 const struct brc_ring_list *brc_contact_bonded(const brc_simulation *s);
 
-/* What surfaces hold now, as last evaluated [J]. */
+/* What surfaces hold now, as last evaluated [J]; later (brc_vector_sum_later). */
 brc_status brc_contact_stored(brc_simulation *s, double *out);
 /* Terms contact, friction, impact of the ledger, and what is kinetic or numerical or fracture of contact's own. */
 brc_status brc_contact_ledger(brc_simulation *s, brc_ledger *ledger);

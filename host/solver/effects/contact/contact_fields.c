@@ -27,7 +27,7 @@ BRC_COUNTED(each_survey, each_drift(w) + each_piece(w))
 static int64_t each_sum(const brc_wants *w)
 {
     const int64_t n = w->layout->n_rows, digits = BRC_SORT_BINS * brc_scan_blocks(n), rows = n > digits ? n : digits;
-    return brc_scan_blocks(w->n_listed > rows ? w->n_listed : rows) + 1;
+    return brc_scan_blocks(w->n_listed > rows ? w->n_listed : rows) + BRC_SCAN_TOTALS;
 }
 
 #define AT(member) BRC_FIELD_AT(brc_contact_state, member)

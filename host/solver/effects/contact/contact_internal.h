@@ -34,6 +34,7 @@ struct brc_contact_state {
     int32_t width;    /* numbers of a moment: 9, else 3 */
     int pose;         /* how elements stand: 0 spheres, 1 by I + H, 2 by their rotation (contact_motion.cl) */
     double skin;      /* of the list there is [m] */
+    double largest;   /* radius of any element at the last search of all [m] */
     double size;      /* mean size of an element [m] */
     double middle[3]; /* of the domain: places are relative to it [m] */
     int32_t n_pieces; /* of strikers */
@@ -149,6 +150,17 @@ brc_status brc_contact_detach(brc_simulation *s);
 /* ---- contact.c ---- */
 /* Elements that lost bonds are exposed; who lost one since the last time is c->fresh. */
 brc_status brc_contact_expose(brc_simulation *s);
+
+/* ---- contact_moves.c ---- */
+enum { BRC_CONTACT_QUIET = 64 }; /* steps between probes at most */
+/* How far and how fast elements and pieces of strikers moved since the list was made: columns of contact_moved and
+ * contact_pieces_moved. */
+typedef struct brc_contact_survey {
+    double element[BRC_CONTACT_MOVED], piece[BRC_CONTACT_MOVED];
+} brc_contact_survey;
+/* Now; or of what a pass left in `moved`, of n_pieces pieces too. */
+brc_status brc_contact_take_survey(brc_simulation *s, brc_contact_survey *out);
+brc_status brc_contact_read_survey(brc_simulation *s, brc_buffer *moved, int32_t n_pieces, brc_contact_survey *out);
 
 /* ---- contact_search.c ---- */
 brc_status brc_contact_search_create(brc_simulation *s);

@@ -5,8 +5,6 @@
 #include "../strikers/striker_contact.h"
 #include <math.h>
 
-enum { MOST_QUIET = 64, FEWEST_QUIET = 8, MOST_TRUSTED = 8 };
-
 /* A table of lists anew, for n things. */
 static brc_status renew(brc_simulation *s, const brc_field_table *table, int64_t n, void *owner)
 {
@@ -65,147 +63,17 @@ brc_status brc_contact_search_create(brc_simulation *s)
     return brc_fields_create(s->device, &brc_contact_slot_fields, &s->wants, &c->before);
 }
 
-/* Largest of each column of rows [from, to). */
-static void largest_of(const double *value, int64_t from, int64_t to, double out[BRC_CONTACT_MOVED])
-{
-    for (int64_t b = from; b < to; ++b)
-        for (int k = 0; k < BRC_CONTACT_MOVED; ++k)
-            out[k] = b == from ? value[BRC_CONTACT_MOVED * b + k] : fmax(out[k], value[BRC_CONTACT_MOVED * b + k]);
-}
-
-/* How far and how fast elements and pieces of strikers moved since the list was made: columns of contact_moved and
- * contact_pieces_moved. */
-typedef struct survey {
-    double element[BRC_CONTACT_MOVED], piece[BRC_CONTACT_MOVED];
-} survey;
-
-static brc_status enqueue_survey(brc_simulation *s)
-{
-    brc_contact_state *c = s->contact;
-    const int32_t n = s->layout->n_rows, n_blocks = brc_blocks(n, BRC_CONTACT_BLOCK);
-    BRC_TRY(BRC_RUN(c->pass.drift, n_blocks, {"n", BRC_INT(n)}));
-    BRC_TRY(BRC_RUN(c->pass.drift_mean, 1, {"n_blocks", BRC_INT(n_blocks)}));
-    BRC_TRY(BRC_RUN(c->pass.moved, n_blocks, {"n", BRC_INT(n)}));
-    return c->n_pieces ? BRC_RUN(c->pass.pieces_moved, c->n_pieces, {"first", BRC_INT(n_blocks)}) : BRC_OK;
-}
-
-/* Largest of the columns that a survey left in `moved`, of n_pieces pieces too. */
-static brc_status read_survey(brc_simulation *s, brc_buffer *moved, int32_t n_pieces, survey *out)
-{
-    const int64_t n_blocks = brc_blocks(s->layout->n_rows, BRC_CONTACT_BLOCK), rows = n_blocks + n_pieces;
-    *out = (survey){.element = {0}};
-    BRC_LOCAL(s->context, BRC_CONTACT_MOVED * rows, double, value, "moves since the last search");
-    const brc_status status = brc_download(s, moved, brc_state_bytes(s), value, BRC_CONTACT_MOVED * rows);
-    largest_of(value, 0, n_blocks, out->element);
-    largest_of(value, n_blocks, rows, out->piece);
-    return status;
-}
-
-static brc_status take_survey(brc_simulation *s, survey *out)
-{
-    BRC_TRY(enqueue_survey(s));
-    return read_survey(s, s->contact->moved, s->contact->n_pieces, out);
-}
-
-/* What a survey says: steps until the next probe; due, past as brc_contact_probe. pushed: acceleration of strikers. */
-static int64_t judge(const brc_simulation *s, const survey *now, double pushed, bool *due, bool *past)
-{
-    const brc_contact_state *c = s->contact;
-    const double dt = brc_simulation_time_step(s).value;
-    /* Twice the present speed and acceleration must not use up what is left before the next probe: of half the skin,
-     * and of the way to the next piece of a striker. */
-    const double left = 0.5 * c->skin - now->element[0], v = 2 * now->element[1] * dt,
-                 a = 2 * sqrt(now->element[2]) * dt * dt;
-    const double clear = -now->element[3] - now->piece[0], v_piece = 2 * (now->element[4] + sqrt(now->piece[1])) * dt,
-                 a_piece = 2 * (sqrt(now->element[5]) + pushed) * dt * dt;
-    int64_t steps = 0;
-    while (steps < MOST_QUIET) {
-        const double t = (double)(steps + 1);
-        if (!(t * (v + t * a) < left) || !(t * (v_piece + t * a_piece) < clear)) break;
-        ++steps;
-    }
-    *past = !(left > 0) || !(clear > 0);
-    *due = *past || (steps < FEWEST_QUIET && (left < 0.25 * c->skin || clear < 0.5 * c->skin));
-    return steps;
-}
-
-static double pushed_now(const brc_simulation *s)
-{
-    return s->contact->n_pieces ? brc_strikers_pushed(s) : 0;
-}
-
-/* Looks that are put off from now on: one more each time that nothing was found, none where something was. */
-static void trust(brc_contact_state *c, bool calm)
-{
-    const int more = c->n_trusted > 0 ? 2 * c->n_trusted : 1;
-    c->n_trusted = !calm ? 0 : more < MOST_TRUSTED ? more : MOST_TRUSTED;
-}
-
-brc_status brc_contact_probe(brc_simulation *s, bool *due, bool *past)
-{
-    brc_contact_state *c = s->contact;
-    survey now;
-    BRC_TRY(take_survey(s, &now));
-    c->quiet = judge(s, &now, pushed_now(s), due, past);
-    trust(c, c->quiet == MOST_QUIET && !*due);
-    return BRC_OK;
-}
-
-/* ---- probes that are put off (../fracture/ahead.h) ---- */
-
-int64_t brc_contact_quiet_steps(const brc_simulation *s)
-{
-    const brc_contact_state *c = s->contact;
-    if (!c) return INT64_MAX;
-    return c->due ? 0 : c->quiet + (int64_t)c->n_trusted * MOST_QUIET;
-}
-
-void brc_contact_begin_stretch(brc_simulation *s)
-{
-    s->contact->n_probes = 0;
-    s->contact->most_pushed = 0;
-}
-
-/* What would allow MOST_QUIET steps with the largest of every column allows as many with each. */
-brc_status brc_contact_put_off_probe(brc_simulation *s)
-{
-    brc_contact_state *c = s->contact;
-    const int64_t bytes = brc_buffer_bytes(c->moved);
-    BRC_TRY(enqueue_survey(s));
-    if (!c->most_moved) BRC_TRY(brc_buffer_create(s->device, &c->most_moved, bytes, "moves of the looks so far"));
-    if (c->n_probes++ == 0)
-        BRC_TRY(brc_buffer_copy(c->most_moved, c->moved, bytes));
-    else
-        BRC_TRY(brc_pass_run(c->pass.most, bytes / brc_state_bytes(s)));
-    c->most_pushed = fmax(c->most_pushed, pushed_now(s));
-    c->quiet = MOST_QUIET;
-    return BRC_OK;
-}
-
-brc_status brc_contact_end_stretch(brc_simulation *s, bool *stands)
-{
-    brc_contact_state *c = s->contact;
-    survey most;
-    bool due, past;
-    *stands = true;
-    if (c->n_probes == 0) return BRC_OK;
-    BRC_TRY(read_survey(s, c->most_moved, c->n_pieces, &most));
-    *stands = judge(s, &most, c->most_pushed, &due, &past) == MOST_QUIET && !due;
-    trust(c, *stands);
-    return BRC_OK;
-}
-
-/* Where the scene leaves the skin open: such that a list lasts some MOST_QUIET steps at four times the present speeds
- * (a thin skin sifts better, a thick one lasts longer). */
+/* Where the scene leaves the skin open: such that a list lasts some BRC_CONTACT_QUIET steps at four times the present
+ * speeds (a thin skin sifts better, a thick one lasts longer). */
 static brc_status choose_skin(brc_simulation *s)
 {
     static const double thinnest = 0.05, thickest = 0.5; /* of the mean size of an element */
     brc_contact_state *c = s->contact;
-    survey now;
+    brc_contact_survey now;
     c->skin = s->scene->contact.skin;
     if (c->skin > 0) return BRC_OK;
-    BRC_TRY(take_survey(s, &now));
-    c->skin = fmin(fmax(8 * MOST_QUIET * now.element[1] * brc_simulation_time_step(s).value, thinnest * c->size),
+    BRC_TRY(brc_contact_take_survey(s, &now));
+    c->skin = fmin(fmax(8 * BRC_CONTACT_QUIET * now.element[1] * brc_simulation_time_step(s).value, thinnest * c->size),
                    thickest * c->size);
     return BRC_OK;
 }
@@ -255,6 +123,7 @@ static brc_status room_for_entries(brc_simulation *s, brc_contact_list *l, int64
     l->entry_room = brc_contact_room(n);
     BRC_TRY(renew(s, &brc_contact_entry_fields, l->entry_room, l));
     brc_buffer_is_of(l->entry, BRC_OF_LOOSE, 4, 4);
+    brc_buffer_is_of(l->pair, BRC_OF_LOOSE, 4, 4);
     return BRC_OK;
 }
 /* Numbers of a result. */
@@ -282,7 +151,7 @@ static brc_status room_for_pairs(brc_simulation *s, brc_contact_list *l, int64_t
     return renew(s, &brc_contact_result_fields, c->result_room, c);
 }
 
-/* Running sums over n pairs. */
+/* For running sums over n pairs. */
 static brc_status room_for_sums(brc_simulation *s, int64_t n)
 {
     brc_contact_state *c = s->contact;
@@ -291,19 +160,25 @@ static brc_status room_for_sums(brc_simulation *s, int64_t n)
     return renew(s, &brc_contact_sum_fields, c->sums_room, c);
 }
 
-/* Results of the list before are on their way: those of pairs that touched, since the others hold nothing. */
-static brc_status pack_results(brc_simulation *s)
+/* What number_pairs asks for in one read. */
+enum { PAIRS, WITH_PAIRS, TOUCHING, ASKED };
+
+/* Results of the list before are on their way: those of pairs that touched, since the others hold nothing. First where
+ * they go. */
+static brc_status find_packed(brc_simulation *s)
 {
     brc_contact_state *c = s->contact;
     const int64_t n = c->before.n_pairs;
-    int64_t n_touching;
-    if (n == 0) return BRC_OK;
-    BRC_TRY(room_for_sums(s, n));
     if (n > c->packed_at_room) {
         c->packed_at_room = brc_contact_room(n);
         BRC_TRY(renew(s, &brc_contact_packed_at_fields, c->packed_at_room, c));
     }
-    BRC_TRY(scan(s, c->touch, n, c->packed_at, &n_touching));
+    return brc_scan_later(&c->scan, c->touch, n, c->sums, c->packed_at, TOUCHING);
+}
+static brc_status pack_results(brc_simulation *s, int32_t n_touching)
+{
+    brc_contact_state *c = s->contact;
+    const int64_t n = c->before.n_pairs;
     if (!c->packed || n_touching > c->packed_room) {
         c->packed_room = brc_contact_room(n_touching) + 1;
         BRC_TRY(renew(s, &brc_contact_packed_fields, c->packed_room, c));
@@ -339,21 +214,33 @@ static brc_status find_redo(brc_simulation *s, bool whole, double per_edge, int3
     return brc_pass_run(c->pass.kept, m);
 }
 
+/* Radius of the largest exposed element; of any, which breaks may expose, c->largest. */
+static brc_status find_largest(brc_simulation *s, double *out)
+{
+    brc_contact_state *c = s->contact;
+    const int32_t n = s->layout->n_rows;
+    brc_contact_survey most;
+    BRC_TRY(BRC_RUN(c->pass.largest, brc_blocks(n, BRC_CONTACT_BLOCK), {"n", BRC_INT(n)}));
+    BRC_TRY(brc_contact_read_survey(s, c->moved, 0, &most));
+    *out = most.element[0];
+    c->largest = most.element[1];
+    return BRC_OK;
+}
+
 /* Who is near whom. */
 static brc_status find_entries(brc_simulation *s, bool whole)
 {
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
-    const int32_t n = s->layout->n_rows, m = l->n_listed, n_blocks = brc_blocks(n, BRC_CONTACT_BLOCK);
-    survey most;
+    const int32_t n = s->layout->n_rows, m = l->n_listed;
     int64_t near, n_redo;
     int sorted, mask = BRC_SORT_BINS;
     while (mask < 2 * (int64_t)m)
         mask *= 2;
     mask -= 1;
-    BRC_TRY(BRC_RUN(c->pass.largest, n_blocks, {"n", BRC_INT(n)}));
-    BRC_TRY(read_survey(s, c->moved, 0, &most));
-    const double per_edge = 1 / (1.000001 * (2 * most.element[0] + c->skin));
+    double largest = c->largest;
+    if (whole) BRC_TRY(find_largest(s, &largest));
+    const double per_edge = 1 / (1.000001 * (2 * largest + c->skin));
     BRC_TRY(sort_by_cell(s, per_edge, mask, &sorted));
     BRC_TRY(find_redo(s, whole, per_edge, mask, sorted, &n_redo));
     int64_t n_own = n_redo;
@@ -377,17 +264,22 @@ static brc_status number_pairs(brc_simulation *s, bool carried)
     brc_contact_state *c = s->contact;
     brc_contact_list *l = &c->now;
     const int32_t m = l->n_listed;
-    int64_t n_pairs;
-    BRC_TRY(scan(s, c->owned, m, c->pair_start, &n_pairs));
-    if (carried) BRC_TRY(pack_results(s));
-    BRC_TRY(room_for_pairs(s, l, n_pairs));
-    l->n_pairs = (int32_t)n_pairs;
-    BRC_TRY(brc_pass_run(c->pass.own_pairs, m));
-    if (n_pairs == 0) return BRC_OK;
-    int64_t n_with_pairs;
-    BRC_TRY(scan(s, c->count, m, c->pair_start, &n_with_pairs));
+    const bool packs = carried && c->before.n_pairs > 0;
+    int32_t total[ASKED];
+    if (packs) BRC_TRY(room_for_sums(s, c->before.n_pairs));
+    BRC_TRY(brc_scan_later(&c->scan, c->count, m, c->sums, c->pair_start, WITH_PAIRS));
     BRC_TRY(BRC_RUN(c->pass.with_pairs, m, {"any", BRC_BUF(c->count)}, {"at", BRC_BUF(c->pair_start)},
                     {"with_pairs", BRC_BUF(l->with_pairs)}));
+    BRC_TRY(brc_scan_later(&c->scan, c->owned, m, c->sums, c->pair_start, PAIRS));
+    if (packs) BRC_TRY(find_packed(s));
+    BRC_TRY(brc_scan_totals(c->sums, packs ? ASKED : TOUCHING, total));
+    if (packs) BRC_TRY(pack_results(s, total[TOUCHING]));
+    const int32_t n_pairs = total[PAIRS];
+    BRC_TRY(room_for_pairs(s, l, n_pairs));
+    l->n_pairs = n_pairs;
+    BRC_TRY(brc_pass_run(c->pass.own_pairs, m));
+    if (n_pairs == 0) return BRC_OK;
+    int64_t n_with_pairs = total[WITH_PAIRS];
     BRC_TRY(brc_contact_keep_slots(s, l->with_pairs, &n_with_pairs));
     l->n_with_pairs = (int32_t)n_with_pairs;
     BRC_TRY(brc_pass_run(c->pass.other_pairs, n_with_pairs));

@@ -218,6 +218,13 @@ brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, 
     return BRC_OK;
 }
 
+BRC_READ(bool, brc_ahead_expects, s->ahead && !s->ahead->on && s->ahead->calm == 0 && works_beside(s))
+
+void brc_ahead_known(brc_simulation *s, bool some)
+{
+    s->ahead->calm = some ? 0 : s->ahead->calm + 1;
+}
+
 void brc_ahead_free(brc_simulation *s)
 {
     struct brc_ahead *a = s->ahead;

@@ -22,6 +22,10 @@ bool brc_ahead_is_on(const brc_simulation *s);
 bool brc_ahead_is_whole(const brc_simulation *s);
 /* The bonds that a step marked: found [count] of elements or groups; *n: their sum, 0 while steps are taken ahead. */
 brc_status brc_ahead_count(brc_simulation *s, brc_buffer *found, int64_t count, double *n);
+/* Bonds broke in the step before, so that some may in this one: what that would ask next may be asked at once, on a
+ * device that works beside the host; brc_ahead_known tells whether any broke. */
+bool brc_ahead_expects(const brc_simulation *s);
+void brc_ahead_known(brc_simulation *s, bool some);
 void brc_ahead_free(brc_simulation *s);
 
 #endif

@@ -170,32 +170,72 @@ static brc_status ask(brc_simulation *s, brc_status (*what)(brc_simulation *))
 
 BRC_READ(bool, brc_cell_breaks_by_bond, s->fracture && s->fracture->cells && !s->fracture->cells->by_element)
 
-/* Bonds above a share of their limit are marked; *n: marks. */
-static brc_status mark_bonds(brc_simulation *s, double share, double *n)
+/* Bonds above a share of their limit are marked; *some: there are. *found: rings are counted already. */
+static brc_status mark_bonds(brc_simulation *s, double share, bool *some, bool *found)
 {
     brc_cell_breaks *c = s->fracture->cells;
-    if (c->by_element) return brc_cell_criteria_mark(s, n);
-    BRC_TRY(s->model->breaking->mark(s, share));
-    return brc_ahead_count(s, c->n_marked, s->n_groups, n);
+    const bool by_element = c->by_element;
+    double n;
+    BRC_TRY(by_element ? brc_cell_criteria_mark(s) : s->model->breaking->mark(s, share));
+    *found = brc_ahead_expects(s);
+    if (*found) {
+        BRC_TRY(brc_rings_find(s, c->rings, some));
+        brc_ahead_known(s, *some);
+        return BRC_OK;
+    }
+    BRC_TRY(brc_ahead_count(s, by_element ? c->found : c->n_marked, by_element ? s->layout->n_rows : s->n_groups, &n));
+    *some = n > 0;
+    return BRC_OK;
+}
+
+/* Energies around breaks that are summed later: brc_model_breaking.energy_around, and outside of elements. */
+typedef struct energies {
+    double part[4], held, touching, closed;
+} energies;
+static double around(const energies *e)
+{
+    return e->part[0] - e->part[1] + e->part[2] - e->part[3];
+}
+static double outside(const energies *e)
+{
+    return e->held + (e->touching + e->closed);
+}
+
+/* Whether bonds that are left to elements are marked. Where there are no surfaces to look for, the rings around what
+ * broke come first, and are counted in the same breath. */
+static brc_status count_left(brc_simulation *s, bool *left)
+{
+    const brc_model_breaking *const m = s->model->breaking;
+    brc_rings *rings = s->fracture->cells->rings;
+    *left = false;
+    if (s->contact) return m->loosens ? brc_rings_find(s, rings, left) : BRC_OK;
+    if (m->wide) BRC_TRY(brc_rings_spread(s, rings, 2, 3)); /* ring 1 is known from before the breaks */
+    BRC_TRY(brc_rings_count(s, rings, left));
+    return *left ? brc_rings_find(s, rings, left) : BRC_OK;
 }
 
 /* Marked bonds go, then the bonds of elements that the others no longer hold, until all that are left are held.
- * *energy: what the elements whose energy that changes held before, each looked at before a bond near it goes [J]. */
-static brc_status break_marked(brc_simulation *s, double *energy)
+ * before: what the elements whose energy that changes held before, each looked at before a bond near it goes; but for
+ * the last time in *earlier [J]. found: rings are counted already. */
+static brc_status break_marked(brc_simulation *s, bool found, energies *before, double *earlier)
 {
     brc_breaking *f = s->fracture;
     brc_cell_breaks *c = f->cells;
-    double left = 1;
-    *energy = 0;
-    while (left > 0) {
-        double more;
-        BRC_TRY(brc_rings_find(s, c->rings));
-        BRC_TRY(s->model->breaking->energy_around(s, c->rings, true, &more));
-        *energy += more;
+    bool left = true;
+    *earlier = 0;
+    if (!found) BRC_TRY(brc_rings_find(s, c->rings, &left));
+    for (bool again = false; left || !again; again = true) {
+        if (again) {
+            BRC_TRY(brc_vector_sums(s));
+            *earlier += around(before);
+        }
+        BRC_TRY(brc_rings_list_found(s, c->rings));
+        BRC_TRY(s->model->breaking->energy_around(s, c->rings, true, before->part));
         BRC_TRY(ask(s, cohesion_of(s)->before_breaks));
         BRC_TRY(BRC_RUN(c->break_pass, s->n_groups, {"step", BRC_INT(brc_fracture_moment(s))},
                         {"width", BRC_INT(s->model->breaking->area_width)}));
-        BRC_TRY(s->model->breaking->rebuild(s, &left));
+        BRC_TRY(s->model->breaking->rebuild(s));
+        BRC_TRY(count_left(s, &left));
     }
     return BRC_OK;
 }
@@ -226,43 +266,46 @@ static brc_status find_rings(brc_simulation *s)
         BRC_TRY(brc_contact_settle(s));
         brc_phase_within(s, phase);
     }
-    if (wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
-    BRC_TRY(brc_contact_spread(s, brc_rings_level(rings), 1 + 2));
-    if (wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
+    if (s->contact && wide) BRC_TRY(brc_rings_spread(s, rings, 2, 2)); /* ring 1 is known from before the breaks */
+    if (s->contact) BRC_TRY(brc_contact_spread(s, brc_rings_level(rings), 1 + 2));
+    if (s->contact && wide) BRC_TRY(brc_rings_spread(s, rings, 3, 3));
     const bool places = s->model->breaking->places && s->model->breaking->places(s, rings);
-    return brc_rings_close(s, rings, places ? BRC_RINGS_PLACE : BRC_RINGS_KEEP, NULL);
+    const brc_rings_closing how = places ? BRC_RINGS_PLACE : BRC_RINGS_KEEP;
+    return s->contact ? brc_rings_close(s, rings, how, NULL) : brc_rings_list(s, rings, how);
 }
 
 /* Energy of held faces and of surfaces that touch [J]: of what breaks bonds change, the part that is not in
  * elements. */
-static brc_status outside_energy(brc_simulation *s, double *out)
+static brc_status outside_energy(brc_simulation *s, energies *e)
 {
-    double touching, closed = 0;
-    BRC_TRY(brc_force_held_energy(s, out));
-    BRC_TRY(brc_contact_stored(s, &touching));
-    if (cohesion_of(s)->stored) BRC_TRY(cohesion_of(s)->stored(s, &closed));
-    *out += touching + closed;
-    return BRC_OK;
+    e->closed = 0;
+    BRC_TRY(brc_force_held_energy(s, &e->held));
+    BRC_TRY(brc_contact_stored(s, &e->touching));
+    return cohesion_of(s)->stored ? cohesion_of(s)->stored(s, &e->closed) : BRC_OK;
 }
 
-brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share)
+static brc_status step(brc_simulation *s, double half_kick, double share)
 {
     brc_breaking *f = s->fracture;
     brc_rings *rings = f->cells->rings;
-    const brc_ring_list *around = brc_rings_around(rings);
-    double marked, before, outside_before, after, outside, weight;
+    const brc_ring_list *list = brc_rings_around(rings);
+    energies before, after;
+    double ended, earlier, weight;
+    bool some, found = false;
     const brc_model_cohesion *o = cohesion_of(s);
-    if (o->is_on && o->is_on(s))
-        BRC_TRY(o->step(s, share, &marked));
-    else
-        BRC_TRY(mark_bonds(s, share, &marked));
-    if (!(marked > 0)) return BRC_OK;
+    if (o->is_on && o->is_on(s)) {
+        BRC_TRY(o->step(s, share, &ended));
+        some = ended > 0;
+    } else {
+        BRC_TRY(mark_bonds(s, share, &some, &found));
+    }
+    if (!some) return BRC_OK;
     /* The step closes with the force of the whole bonds, and the next one opens with that of those that are left:
      * velocities gain half a kick of the one and lose half a kick of the other, in the rings where they differ. */
-    BRC_TRY(outside_energy(s, &outside_before));
+    BRC_TRY(outside_energy(s, &before));
     BRC_TRY(kick_others(s, half_kick));
     BRC_TRY(brc_rings_begin(s, rings, half_kick));
-    BRC_TRY(break_marked(s, &before));
+    BRC_TRY(break_marked(s, found, &before, &earlier));
     if (f->cells->by_element) BRC_TRY(brc_cell_criteria_settle(s));
     BRC_TRY(ask(s, o->after_breaks));
     BRC_TRY(find_rings(s));
@@ -270,18 +313,25 @@ brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double shar
     if (o->change) BRC_TRY(o->change(s, brc_rings_are_whole(rings) ? 0 : half_kick));
     BRC_TRY(brc_rings_end(s, rings));
     BRC_TRY(kick_others(s, -half_kick));
-    BRC_TRY(s->model->breaking->energy_around(s, rings, false, &after));
-    BRC_TRY(outside_energy(s, &outside));
-    BRC_TRY(brc_rings_sum(s, around, 0, f->cells->weight, &weight));
-    if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
+    BRC_TRY(s->model->breaking->energy_around(s, rings, false, after.part));
+    BRC_TRY(outside_energy(s, &after));
+    BRC_TRY(brc_rings_sum(s, list, 0, f->cells->weight, &weight));
     BRC_TRY(ask(s, o->refresh));
-    const int32_t n = around->n[0];
-    BRC_TRY(BRC_RUN(f->cells->share, n, {"step", BRC_INT(brc_fracture_moment(s))},
-                    {"per_weight", BRC_STATE((before + outside_before - after - outside) / weight)},
-                    {"list", BRC_BUF(around->upto[0])}));
+    BRC_TRY(brc_vector_sums(s));
+    if (!(weight > 0)) weight = 1; /* bonds without stress share nothing */
+    const double released = earlier + around(&before) + outside(&before) - around(&after) - outside(&after);
+    BRC_TRY(BRC_RUN(f->cells->share, list->n[0], {"step", BRC_INT(brc_fracture_moment(s))},
+                    {"per_weight", BRC_STATE(released / weight)}, {"list", BRC_BUF(list->upto[0])}));
     BRC_TRY(brc_rings_forget(rings));
-    if (o->settle) BRC_TRY(o->settle(s, around));
+    if (o->settle) BRC_TRY(o->settle(s, list));
     return brc_contact_list_bonded(s);
+}
+
+brc_status brc_cell_breaks_step(brc_simulation *s, double half_kick, double share)
+{
+    const brc_status status = step(s, half_kick, share);
+    if (status != BRC_OK) brc_vector_sums_forget(s);
+    return status;
 }
 
 brc_status brc_cell_breaks_fail(brc_simulation *s, double half_kick)

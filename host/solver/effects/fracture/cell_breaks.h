@@ -26,8 +26,6 @@ brc_status brc_cell_breaks_failure_ratio(brc_simulation *s, double *out);
 brc_rings *brc_cell_breaks_rings(const brc_simulation *s);
 /* An array of the cells' bonds or of the cells, as kernels call it (brc_cell_break_fields); NULL: not in this run. */
 brc_buffer *brc_cell_breaks_array(const brc_simulation *s, const char *name);
-/* [n_groups] how many bonds the last pass over groups marked. */
-brc_buffer *brc_cell_breaks_marked(const brc_simulation *s);
 /* Arrays of the cells' bonds, then of the rings around breaks, then what broken bonds keep. Three scopes, which must
  * stay where they are. */
 typedef struct brc_cell_scopes {

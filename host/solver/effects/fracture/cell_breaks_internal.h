@@ -24,8 +24,8 @@ extern const brc_field_table brc_cell_break_fields;
 
 /* ---- cell_criteria.c: elements by their stress ---- */
 brc_status brc_cell_criteria_create(brc_simulation *s);
-/* Bonds that failing elements choose are marked; *n: elements that fail. */
-brc_status brc_cell_criteria_mark(brc_simulation *s, double *n);
+/* Bonds that failing elements choose are marked; found: the elements that fail. */
+brc_status brc_cell_criteria_mark(brc_simulation *s);
 /* After bonds broke: who is whose neighbour. */
 brc_status brc_cell_criteria_settle(brc_simulation *s);
 brc_status brc_cell_criteria_ratio(brc_simulation *s, double *out);

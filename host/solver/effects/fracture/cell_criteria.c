@@ -1,7 +1,6 @@
 /* Cells that fail by criteria of elements (NAH19 section 2.2 and the limits on shear that it proposes), with a cell's
  * own stress in place of the virial of beams: passes of cell_criteria.cl before and after those of
  * fracture.cl. */
-#include "ahead.h"
 #include "cell_breaks_internal.h"
 
 brc_status brc_cell_criteria_create(brc_simulation *s)
@@ -26,15 +25,14 @@ static brc_status record(brc_simulation *s)
     return brc_pass_run(f->cells->record, s->n_groups);
 }
 
-brc_status brc_cell_criteria_mark(brc_simulation *s, double *n)
+brc_status brc_cell_criteria_mark(brc_simulation *s)
 {
     const brc_breaking *f = s->fracture;
     const brc_cell_breaks *c = f->cells;
     const int32_t rows = s->layout->n_rows;
     BRC_TRY(record(s));
     BRC_TRY(brc_fracture_choose(s, (int32_t)brc_fracture_moment(s)));
-    BRC_TRY(BRC_RUN(c->mark_chosen, rows, {"stress", BRC_BUF(f->measure)}));
-    return brc_ahead_count(s, c->found, rows, n);
+    return BRC_RUN(c->mark_chosen, rows, {"stress", BRC_BUF(f->measure)});
 }
 
 brc_status brc_cell_criteria_settle(brc_simulation *s)

@@ -26,5 +26,3 @@ brc_buffer *brc_cell_breaks_array(const brc_simulation *s, const char *name)
 {
     return brc_field_named(&brc_cell_break_fields, s->fracture->cells, name);
 }
-
-BRC_READ(brc_buffer *, brc_cell_breaks_marked, s->fracture->cells->n_marked)

@@ -134,5 +134,5 @@ brc_status brc_force_held_energy(brc_simulation *s, double *out)
     *out = 0;
     if (!h->n_faces) return BRC_OK;
     BRC_TRY(brc_pass_run(s->loads->pass.held_energy, h->n_elements));
-    return brc_vector_sum(s, h->energy, h->n_faces, out);
+    return brc_vector_sum_later(s, h->energy, h->n_faces, out);
 }

@@ -123,10 +123,9 @@ brc_status brc_dlsm_mark(brc_simulation *s, double share)
     return BRC_RUN(brc_dlsm_own_of(s)->check, s->n_groups, {"share", BRC_COEFF(share)});
 }
 
-brc_status brc_dlsm_rebuild(brc_simulation *s, double *left)
+brc_status brc_dlsm_rebuild(brc_simulation *s)
 {
-    BRC_TRY(brc_pass_run(brc_dlsm_own_of(s)->rebuild, s->n_groups));
-    return brc_vector_sum(s, brc_cell_breaks_marked(s), s->n_groups, left);
+    return brc_pass_run(brc_dlsm_own_of(s)->rebuild, s->n_groups);
 }
 
 BRC_READ(bool, brc_dlsm_screens, brc_cell_breaks_by_bond(s) && !brc_softening_is_on(s))

@@ -57,7 +57,7 @@ BRC_WANTED(softens, w->scene->has_fracture &&brc_wants_cells(w) && w->softens)
 BRC_WANTED(slides, brc_scene_slides(w->scene, w->scene->model.kind))
 
 BRC_COUNTED(each_face, w->layout->n_slots * w->layout->slice / 2 + 1)
-BRC_COUNTED(each_block_of_rows, brc_scan_blocks(w->layout->n_rows) + 1)
+BRC_COUNTED(each_block_of_rows, brc_scan_blocks(w->layout->n_rows) + BRC_SCAN_TOTALS)
 
 #define AT(member) BRC_FIELD_AT(softening_faces, member)
 static const brc_field_row rows[] = {

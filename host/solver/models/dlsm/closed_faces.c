@@ -208,7 +208,7 @@ brc_status brc_closed_faces_stored(brc_simulation *s, double *out)
     *out = 0;
     if (!f || !f->any || is_disabled(s)) return BRC_OK;
     BRC_TRY(brc_pass_run(f->energy, n));
-    return brc_vector_sum(s, brc_kinetic_of(s), n, out);
+    return brc_vector_sum_later(s, brc_kinetic_of(s), n, out);
 }
 
 brc_status brc_closed_faces_friction(brc_simulation *s, double *out)

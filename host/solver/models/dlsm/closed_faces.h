@@ -33,7 +33,7 @@ brc_status brc_closed_faces_change(brc_simulation *s, double half_kick);
 
 /* Places were set otherwise than by a step: all faces are looked at, until the next one. */
 brc_status brc_closed_faces_restart(brc_simulation *s);
-/* Energy that pressed faces hold, and that sliding took so far [J]. */
+/* Energy that pressed faces hold, later (brc_vector_sum_later), and that sliding took so far [J]. */
 brc_status brc_closed_faces_stored(brc_simulation *s, double *out);
 brc_status brc_closed_faces_friction(brc_simulation *s, double *out);
 /* What a checkpoint keeps (state_store.h). */

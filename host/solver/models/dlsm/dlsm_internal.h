@@ -40,12 +40,12 @@ brc_status brc_dlsm_fluxes_of_state(brc_simulation *s, const brc_ring_list *list
 /* Around breaks: as brc_model_breaking says. */
 brc_status brc_dlsm_gradients_around(brc_simulation *s, const brc_force_request *r);
 brc_status brc_dlsm_replace_around(brc_simulation *s, const brc_rings *rings);
-brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
+brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double part[4]);
 
 /* ---- breaks.c: as brc_model_breaking says ---- */
 brc_status brc_dlsm_breaks_create(brc_simulation *s);
 brc_status brc_dlsm_mark(brc_simulation *s, double share);
-brc_status brc_dlsm_rebuild(brc_simulation *s, double *left);
+brc_status brc_dlsm_rebuild(brc_simulation *s);
 brc_status brc_dlsm_ratio(brc_simulation *s, double *out);
 brc_status brc_dlsm_branches(brc_simulation *s, brc_buffer **out);
 /* The last pass of the full law, but for that after breaks, finds which elements may lose bonds: the next function in

@@ -166,12 +166,12 @@ static brc_status bonds_around(brc_simulation *s, const brc_ring_list *list, int
 }
 
 /* Rings 0 and 1 have other strains, bonds of ring 0 alone other energies. */
-brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
+brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double part[4])
 {
     const brc_ring_list *list = brc_rings_around(rings);
     const bool apart = brc_rims_energies_apart(s);
     const int ring = found ? 2 : 1, ring_of_bonds = found ? 1 : 0;
-    double part[4] = {0};
+    part[1] = part[3] = 0;
     if (!apart) BRC_TRY(element_energies(s, list, ring));
     if (apart && found) BRC_TRY(elastic_around(s, list, ring)); /* after breaks: with their stresses */
     if (apart) BRC_TRY(bonds_around(s, list, ring_of_bonds));
@@ -179,9 +179,8 @@ brc_status brc_dlsm_energy_around(brc_simulation *s, const brc_rings *rings, boo
     if (found)
         BRC_TRY(brc_rings_sum(s, list, 0, brc_elastic_energy_of(s), &part[1])); /* counted when they were found */
     BRC_TRY(brc_rings_sum(s, list, apart ? ring_of_bonds : ring, brc_stabilisation_energy_of(s), &part[2]));
-    if (found && !apart) BRC_TRY(brc_rings_sum(s, list, 0, brc_stabilisation_energy_of(s), &part[3]));
-    *out = part[0] - part[1] + part[2] - part[3];
-    return BRC_OK;
+    if (!found || apart) return BRC_OK;
+    return brc_rings_sum(s, list, 0, brc_stabilisation_energy_of(s), &part[3]);
 }
 
 brc_status brc_dlsm_energies(brc_simulation *s, double *elastic, double *stabilisation)
@@ -192,6 +191,7 @@ brc_status brc_dlsm_energies(brc_simulation *s, double *elastic, double *stabili
     BRC_TRY(brc_vector_sum(s, brc_elastic_energy_of(s), n, elastic));
     BRC_TRY(brc_vector_sum(s, brc_stabilisation_energy_of(s), n, stabilisation));
     BRC_TRY(brc_force_held_energy(s, &held));
+    BRC_TRY(brc_vector_sums(s));
     *stabilisation += held;
     return BRC_OK;
 }

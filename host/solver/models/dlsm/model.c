@@ -18,6 +18,7 @@ static const brc_model_breaking breaking = {.create = brc_dlsm_breaks_create,
                                             .branches = brc_dlsm_branches,
                                             .mark = brc_dlsm_mark,
                                             .rebuild = brc_dlsm_rebuild,
+                                            .loosens = true,
                                             .places = brc_rims_may_add,
                                             .ratio = brc_dlsm_ratio,
                                             .gradients_around = brc_dlsm_gradients_around,
@@ -35,6 +36,7 @@ static brc_status energies(brc_simulation *s, const brc_occasion *now)
     BRC_TRY(brc_softening_friction(s, &opened_rubbed));
     BRC_TRY(brc_closed_faces_friction(s, &closed_rubbed));
     BRC_TRY(brc_closed_faces_stored(s, &closed));
+    BRC_TRY(brc_vector_sums(s));
     now->ledger->friction += opened_rubbed + closed_rubbed;
     now->ledger->contact += closed;
     return BRC_OK;

@@ -90,11 +90,9 @@ brc_status brc_published_mark(brc_simulation *s, double share)
     return BRC_RUN(brc_published_own_of(s)->check, s->n_groups, {"share", BRC_COEFF(share)});
 }
 
-brc_status brc_published_rebuild(brc_simulation *s, double *left)
+brc_status brc_published_rebuild(brc_simulation *s)
 {
-    const brc_published_own *c = brc_published_own_of(s);
-    *left = 0; /* elements hang on by any bond */
-    return brc_pass_run(c->rebuild, s->layout->n_rows);
+    return brc_pass_run(brc_published_own_of(s)->rebuild, s->layout->n_rows);
 }
 
 brc_status brc_published_ratio(brc_simulation *s, double *out)

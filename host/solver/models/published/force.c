@@ -31,17 +31,15 @@ static brc_status element_energies(brc_simulation *s, const brc_ring_list *list,
 }
 
 /* Rings 0 and 1 have other strains. */
-brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out)
+brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double part[4])
 {
     const brc_ring_list *list = brc_rings_around(rings);
     const int ring = found ? 2 : 1;
-    double part[2] = {0};
+    part[1] = part[2] = part[3] = 0;
     BRC_TRY(element_energies(s, list, ring));
     BRC_TRY(brc_rings_sum(s, list, ring, brc_elastic_energy_of(s), &part[0]));
-    if (found)
-        BRC_TRY(brc_rings_sum(s, list, 0, brc_elastic_energy_of(s), &part[1])); /* counted when they were found */
-    *out = part[0] - part[1];
-    return BRC_OK;
+    if (!found) return BRC_OK;
+    return brc_rings_sum(s, list, 0, brc_elastic_energy_of(s), &part[1]); /* counted when they were found */
 }
 
 brc_status brc_published_energies(brc_simulation *s, double *elastic, double *stabilisation)

@@ -28,7 +28,7 @@ brc_status brc_published_tractions(brc_simulation *s, const brc_force_request *r
 brc_status brc_published_energies(brc_simulation *s, double *elastic, double *stabilisation);
 /* Around breaks: as brc_model_breaking says. */
 brc_status brc_published_replace_around(brc_simulation *s, const brc_rings *rings);
-brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double *out);
+brc_status brc_published_energy_around(brc_simulation *s, const brc_rings *rings, bool found, double part[4]);
 
 /* ---- statics.c ---- */
 /* Torques of the displacements just found. */
@@ -41,7 +41,7 @@ brc_status brc_published_breaks_strains(brc_simulation *s, const brc_force_reque
 /* Forces of the full law, with what marks and ratios need. */
 brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request *r);
 brc_status brc_published_mark(brc_simulation *s, double share);
-brc_status brc_published_rebuild(brc_simulation *s, double *left);
+brc_status brc_published_rebuild(brc_simulation *s);
 brc_status brc_published_ratio(brc_simulation *s, double *out);
 brc_status brc_published_branches(brc_simulation *s, brc_buffer **out);
 

@@ -347,6 +347,59 @@ static void beams_that_do_not_break_are_two_launches_more(void **state)
     assert_in_range(launches[1] - launches[0], 2 * STEPS, 2 * STEPS + 8 * (STEPS / BRC_AHEAD_MOST));
 }
 
+/* Steps by which bonds break one after another: the least and the most waits of one in which some do, without the one
+ * that tells how many broke. */
+static void waits_of_breaks(const case_options *o, int64_t *least, int64_t *most)
+{
+    bench_case c;
+    const brc_break *events = NULL;
+    int64_t n = 0;
+    *least = INT64_MAX;
+    *most = 0;
+    open_case(&c, *o);
+    assert_done(&c, brc_simulation_begin_stage(c.simulation, 0));
+    for (int step = 0; step < 430; ++step) {
+        const int64_t before = brc_device_counted(c.device).waits, had = n;
+        assert_done(&c, brc_simulation_advance(c.simulation, 1));
+        const int64_t waits = brc_device_counted(c.device).waits - before;
+        assert_done(&c, brc_simulation_breaks(c.simulation, &n, &events));
+        if (n == had) continue;
+        *least = waits < *least ? waits : *least;
+        *most = waits > *most ? waits : *most;
+    }
+    assert_true(n > 20);
+    close_case(&c);
+}
+
+/* What broke and its rings, what is left and the rings around it, and all sums: a wait each. Where nothing broke in the
+ * step before, one more tells that something does; where elements come off with the bonds they have left, three more
+ * for each time. Contact looks for surfaces. */
+static void steps_in_which_bonds_break_wait_three_times(void **state)
+{
+    (void)state;
+    const struct {
+        case_options o;
+        int64_t least, most;
+    } cases[] = {
+        {{.device = DEVICE, .stages = PULL(""), .materials = PULL_STRENGTH, .sets = CELLS_FRACTURE}, 3, 7},
+        {{.device = DEVICE,
+          .model = "dlsm-published",
+          .materials = PULL_STRENGTH,
+          .sets = CELLS_FRACTURE "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n",
+          .stages = "  - name: pull\n    solver: {dynamic: {steps: 430, time_step: 0.04 s}}\n    loads:\n      - "
+                    "element_displacement: {set: left, x: 0}\n      - element_velocity: {set: right, x: 1e-5 "
+                    "m/s}\n"},
+         3,
+         4},
+        {{.device = DEVICE, .stages = PULL(""), .materials = PULL_STRENGTH, .sets = CONTACT_KEYS}, 12, 28}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        int64_t least, most;
+        waits_of_breaks(&cases[k].o, &least, &most);
+        assert_int_equal(least, cases[k].least);
+        assert_int_equal(most, cases[k].most);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_steps_are_few_launches_and_nobody_waits),
@@ -358,6 +411,7 @@ int main(void)
                                        cmocka_unit_test(nor_does_anybody_where_beams_may_touch),
                                        cmocka_unit_test(moving_surfaces_are_looked_at_once_in_many_steps),
                                        cmocka_unit_test(so_have_those_before_surfaces_meet),
+                                       cmocka_unit_test(steps_in_which_bonds_break_wait_three_times),
                                        cmocka_unit_test(so_have_those_before_the_first_beam_breaks),
                                        cmocka_unit_test(beams_that_do_not_break_are_two_launches_more)};
     if (!device_is_there(DEVICE)) return test_skip("there is no such device with double precision");
