@@ -78,6 +78,7 @@ const brc_meaning brc_meanings_of_checkpoints[] = {
     {"parts/*/static.pace", "-", "iterations for each digit of the residual in the first solve with it; 0: none yet"},
     {"parts/*/static.bonds_broke", "-", "1: bonds broke since the preconditioner was made"},
     {"parts/*/static.blocks_alone", "-", "1: diagonal blocks serve in place of multigrid"},
+    {"parts/*/static.tangent", "-", "1: corrections go by the tangent of the law at the present state"},
     /* elements */
     {"parts/*/displacement", "m", "displacement of each element; x y z"},
     {"parts/*/velocity", "m/s", "velocity of each element; x y z"},
