@@ -281,10 +281,13 @@ static void opencl_forget(brc_kernel *kernel)
     brc_memory_free(own);
 }
 
-/* Small bodies: groups of as few as FEWEST_OF_GROUP, so that no part of the device is idle. */
-static size_t group_for(size_t group, size_t items, int units)
+/* Few items: smaller groups, so that no part of the device is idle, and on a GPU down to one item, for those of a group
+ * wait for the longest path of all (pairs of polyhedra: 154 us for 358, bench/results/2026-11-27-nvidia-h200-crews).
+ * PoCL compiles a kernel once more for each size of group. */
+static size_t group_for(const brc_device_info *device, size_t group, size_t items)
 {
-    while (group / 2 >= FEWEST_OF_GROUP && items < group * (size_t)units)
+    const size_t fewest = device->is_gpu ? 1 : FEWEST_OF_GROUP;
+    while (group / 2 >= fewest && items < group * (size_t)device->compute_units)
         group /= 2;
     return group;
 }
@@ -298,7 +301,7 @@ static extent extent_of(const brc_kernel *kernel, size_t first, size_t items)
     const brc_device *const device = kernel->device;
     if (kernel->signature.crews && device->lanes == 1)
         return (extent){first * BRC_GPU_CREW, items * BRC_GPU_CREW, BRC_GPU_CREW};
-    const size_t group = group_for(((const opencl_kernel *)kernel->inside)->group, items, device->info.compute_units);
+    const size_t group = group_for(&device->info, ((const opencl_kernel *)kernel->inside)->group, items);
     return (extent){first, (items + group - 1) / group * group, group};
 }
 

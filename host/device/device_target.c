@@ -148,14 +148,11 @@ static brc_status target_open(brc_device *device, const brc_device_request *requ
     char why[BRC_REASON_BYTES];
     const brc_target_plugin *const plugin = find_plugin(why, sizeof why);
     if (!plugin) return BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s: %s", device->info.selector, why);
-    const brc_kernel_instance *instance = NULL;
-    for (int k = 0; k < plugin->n_instances; ++k)
-        if (plugin->instances[k]->precision == (int)request->precision &&
-            plugin->instances[k]->many_materials == (int)request->many_materials)
-            instance = plugin->instances[k];
+    const brc_kernel_instance *const instance =
+        plugin->instance((int)request->precision, (int)request->many_materials, why, sizeof why);
     if (!instance)
-        return BRC_FAIL(device->context, BRC_INTERNAL, "the target plug-in has no kernels for %s",
-                        brc_precision_name(request->precision));
+        return BRC_FAIL(device->context, BRC_DEVICE_FAILED, "device %s: the plug-in has no kernels in %s: %s",
+                        device->info.selector, brc_precision_name(request->precision), why);
     if (request->lanes && request->lanes != instance->lanes)
         return BRC_FAIL(device->context, BRC_BAD_INPUT, "the target kernels handle %d elements at once, not %d",
                         instance->lanes, request->lanes);

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 /* Raised with every change of this struct or of kernel_instance.h. */
-#define BRC_TARGET_PLUGIN_VERSION 2
+#define BRC_TARGET_PLUGIN_VERSION 3
 
 typedef struct brc_target_plugin {
     int version;
@@ -17,8 +17,9 @@ typedef struct brc_target_plugin {
     const char *compiler;
     const char *architecture; /* of its target code */
     int falls_back;           /* not 0: without a device its regions run on the host, as device 0 */
-    const brc_kernel_instance *const *instances;
-    int n_instances;
+    /* The kernels of a precision (as brc_precision), for many materials or one; NULL: there are none, with the reason
+     * in why [bytes]. */
+    const brc_kernel_instance *(*instance)(int precision, int many_materials, char *why, size_t bytes);
     int (*devices)(void);
     /* Device memory, not cleared; NULL when there is none. */
     void *(*allocate)(int device, size_t bytes);

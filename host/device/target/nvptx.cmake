@@ -1,5 +1,6 @@
-# The OpenMP target plug-in for NVIDIA cards, libbreccia_target_nvptx.so, compiled by gcc in the layout of a GPU where gcc has an offload compiler (Debian:
-# gcc-12-offload-nvptx). Minutes of one core, so it is no part of `all`: cmake --build FOLDER --target brc_target_nvptx
+# The OpenMP target plug-in for NVIDIA cards, libbreccia_target_nvptx.so, and beside it a library for each precision, with many materials or one, compiled
+# by gcc in the layout of a GPU where gcc has an offload compiler (Debian: gcc-12-offload-nvptx). Minutes of one core, so it is no part of `all`:
+# cmake --build FOLDER --target brc_target_nvptx
 set(BRC_NVPTX_ARCH "sm_80" CACHE STRING "Oldest card the OpenMP target plug-in for NVIDIA cards runs on")
 find_program(BRC_NVPTX_GCC NAMES gcc-12 gcc-13 gcc-14 gcc)
 mark_as_advanced(BRC_NVPTX_GCC BRC_NVPTX_ARCH)
@@ -19,27 +20,24 @@ if(NOT BRC_NVPTX_GCC OR NOT BRC_NVPTX_WORKS)
     return()
 endif()
 
-set(brc_nvptx_objects "")
-set(brc_nvptx_instances "")
+set(brc_nvptx_libraries ${CMAKE_BINARY_DIR}/libbreccia_target_nvptx.so)
 foreach(precision RANGE 2)
     list(GET brc_precisions ${precision} precision_name)
     foreach(many RANGE 1)
-        set(name brc_kernels_nvptx_${precision_name}_${many})
-        set(object ${brc_nvptx_dir}/${name}.o)
-        add_custom_command(OUTPUT ${object}
-            COMMAND ${BRC_NVPTX_GCC} ${brc_nvptx_flags} -DBRC_TARGET -DBRC_INSTANCE=${name} -DBRC_LEVEL="nvptx" -DBRC_PRECISION=${precision}
-                    -DBRC_LANES=1 -DBRC_SLICE=32 -DBRC_MANY_MATERIALS=${many} -I${brc_device_generated} -c ${brc_device_dir}/instance/kernels_instance.c -o ${object}
+        set(library ${CMAKE_BINARY_DIR}/libbreccia_target_nvptx_${precision_name}_${many}.so)
+        add_custom_command(OUTPUT ${library}
+            COMMAND ${BRC_NVPTX_GCC} ${brc_nvptx_flags} -fvisibility=default -DBRC_TARGET -DBRC_INSTANCE=brc_kernels_nvptx_${precision_name}_${many}
+                    -DBRC_LEVEL="nvptx" -DBRC_PRECISION=${precision} -DBRC_LANES=1 -DBRC_SLICE=32 -DBRC_MANY_MATERIALS=${many}
+                    -I${brc_device_generated} -shared ${brc_device_dir}/instance/kernels_instance.c -o ${library}
             DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/kernel_instance.h ${brc_device_generated}/kernel_list.h ${brc_kernel_texts}
             COMMENT "Building target kernels for ${BRC_NVPTX_ARCH}, ${precision_name}, many materials ${many}" VERBATIM)
-        list(APPEND brc_nvptx_objects ${object})
-        string(APPEND brc_nvptx_instances " X(${name})")
+        list(APPEND brc_nvptx_libraries ${library})
     endforeach()
 endforeach()
-set(brc_nvptx_library ${CMAKE_BINARY_DIR}/libbreccia_target_nvptx.so)
-add_custom_command(OUTPUT ${brc_nvptx_library}
-    COMMAND ${BRC_NVPTX_GCC} ${brc_nvptx_flags} "-DBRC_TARGET_INSTANCES(X)=${brc_nvptx_instances}"
-            -DBRC_TARGET_ARCHITECTURE="nvptx, ${BRC_NVPTX_ARCH}" -DBRC_TARGET_FALLS_BACK=1
-            -I${brc_device_generated} -shared ${brc_device_dir}/target/target_plugin.c ${brc_nvptx_objects} -o ${brc_nvptx_library}
-    DEPENDS ${brc_nvptx_objects} ${brc_device_dir}/target/target_plugin.c ${brc_device_dir}/target_plugin.h ${brc_device_generated}/kernel_hash.h
+add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/libbreccia_target_nvptx.so
+    COMMAND ${BRC_NVPTX_GCC} ${brc_nvptx_flags} -DBRC_TARGET_APART="libbreccia_target_nvptx" -DBRC_TARGET_ARCHITECTURE="nvptx, ${BRC_NVPTX_ARCH}"
+            -DBRC_TARGET_FALLS_BACK=1 -I${brc_device_generated} -shared ${brc_device_dir}/target/target_plugin.c -ldl
+            -o ${CMAKE_BINARY_DIR}/libbreccia_target_nvptx.so
+    DEPENDS ${brc_device_dir}/target/target_plugin.c ${brc_device_dir}/target_plugin.h ${brc_device_generated}/kernel_hash.h
     COMMENT "Linking libbreccia_target_nvptx.so" VERBATIM)
-add_custom_target(brc_target_nvptx DEPENDS ${brc_nvptx_library})
+add_custom_target(brc_target_nvptx DEPENDS ${brc_nvptx_libraries})

@@ -1,14 +1,47 @@
-/* Memory and control of OpenMP target devices, compiled beside the kernel instances by clang into libbreccia_target, by
- * gcc into libbreccia_target_nvptx. */
+/* Memory and control of OpenMP target devices, compiled by clang into libbreccia_target together with the kernel
+ * instances, by gcc into libbreccia_target_nvptx, whose instances lie in libraries beside it (BRC_TARGET_APART, the
+ * stem of their names): a card's driver compiles whole libraries as they are opened, one instance in seconds; six
+ * together took more than 24 GB. */
+#ifdef BRC_TARGET_APART
+#define _GNU_SOURCE /* dladdr */
+#include <dlfcn.h>
+#endif
 #include "../target_plugin.h"
 #include "kernel_hash.h"
 #include <omp.h>
+#include <stdio.h>
 #include <string.h>
 
+#ifdef BRC_TARGET_APART
+static const brc_kernel_instance *instance(int precision, int many_materials, char *why, size_t bytes)
+{
+    static const char *const names[] = {"double", "mixed", "single"};
+    Dl_info own;
+    char path[4096], symbol[64];
+    const char *const folder = dladdr(&names, &own) && own.dli_fname ? own.dli_fname : "";
+    const char *const slash = strrchr(folder, '/');
+    snprintf(path, sizeof path, "%.*s%s_%s_%d.so", slash ? (int)(slash + 1 - folder) : 0, folder, BRC_TARGET_APART,
+             names[precision], many_materials);
+    snprintf(symbol, sizeof symbol, "brc_kernels_nvptx_%s_%d", names[precision], many_materials);
+    void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    const brc_kernel_instance *const found = library ? dlsym(library, symbol) : NULL;
+    if (!found) snprintf(why, bytes, "%s", dlerror());
+    return found;
+}
+#else
 #define BRC_DECLARE(name) extern const brc_kernel_instance name;
 BRC_TARGET_INSTANCES(BRC_DECLARE)
 #define BRC_ADDRESS(name) &name,
 static const brc_kernel_instance *const instances[] = {BRC_TARGET_INSTANCES(BRC_ADDRESS)};
+
+static const brc_kernel_instance *instance(int precision, int many_materials, char *why, size_t bytes)
+{
+    for (size_t k = 0; k < sizeof instances / sizeof instances[0]; ++k)
+        if (instances[k]->precision == precision && instances[k]->many_materials == many_materials) return instances[k];
+    snprintf(why, bytes, "it was built without");
+    return NULL;
+}
+#endif
 
 static int devices(void)
 {
@@ -90,8 +123,7 @@ static const brc_target_plugin plugin = {
 #endif
     .architecture = BRC_TARGET_ARCHITECTURE,
     .falls_back = BRC_TARGET_FALLS_BACK,
-    .instances = instances,
-    .n_instances = (int)(sizeof instances / sizeof instances[0]),
+    .instance = instance,
     .devices = devices,
     .allocate = allocate,
     .release = release,
