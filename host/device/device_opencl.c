@@ -14,7 +14,7 @@
 
 /* Work-items a group; docs/notebook/devices.md has the measurements. Never left to the driver: PoCL's own choice
  * crashed with wide types. */
-enum { GROUP_CPU = 64, FEWEST_OF_GROUP = 32 };
+enum { GROUP_CPU = 64 };
 /* What kernels of one element a work-item put aside of it in local memory (kernels/portable.h), numbers at most. */
 enum { MOST_ASIDE = 27 };
 /* Elements a slice of the storage holds on a CPU: as many as a work-item, and at least these. */
@@ -281,13 +281,12 @@ static void opencl_forget(brc_kernel *kernel)
     brc_memory_free(own);
 }
 
-/* Few items: smaller groups, so that no part of the device is idle, and on a GPU down to one item, for those of a group
- * wait for the longest path of all (pairs of polyhedra: 154 us for 358, bench/results/2026-11-27-nvidia-h200-crews).
- * PoCL compiles a kernel once more for each size of group. */
+/* Few items on a GPU: smaller groups, so that no part of it is idle, down to one item, for those of a group wait for
+ * the longest path of all (pairs of polyhedra: 154 us for 358, bench/results/2026-11-27-nvidia-h200-crews). PoCL would
+ * compile a kernel once more for each size of group. */
 static size_t group_for(const brc_device_info *device, size_t group, size_t items)
 {
-    const size_t fewest = device->is_gpu ? 1 : FEWEST_OF_GROUP;
-    while (group / 2 >= fewest && items < group * (size_t)device->compute_units)
+    while (device->is_gpu && group > 1 && items < group * (size_t)device->compute_units)
         group /= 2;
     return group;
 }
