@@ -101,7 +101,7 @@ def main():
     page_says("adding_an_effect.md", add(tree, EFFECT))
     cache = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     call(["cmake", "-S", tree, "-B", made, "-DCMAKE_BUILD_TYPE=Release", "-DBRC_TESTS=OFF", "-DBRC_ISA_LEVELS=v2", "-DBRC_LAST_PRECISION=0",
-          "-DBRC_TARGET_WORKS=0"] + cache)
+          "-DBRC_KERNEL_OPTIMISATION=-O1", "-DBRC_TARGET_WORKS=0"] + cache)
     call(["cmake", "--build", made, "--target", "breccia", "--parallel", "2"])
     program = os.path.join(made, "bin", "breccia")
     listed = call([program, "devices"])
