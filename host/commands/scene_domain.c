@@ -119,7 +119,7 @@ static brc_status make_body(brc_context *context, const brc_scene *scene, int32_
     if (scene->bodies[index].domain_file[0]) return read_body(context, scene, index, out);
     brc_scene_request request;
     BRC_TRY(brc_scene_request_make(context, scene, index, n_threads, &request));
-    request.build.together = together == BRC_APART && scene->n_bodies > 1 ? BRC_TOGETHER : together;
+    request.build.together = together;
     const brc_status status = brc_domain_build(context, &request.build, out);
     brc_scene_request_free(&request);
     return status;
@@ -267,7 +267,6 @@ brc_status brc_split_domains_build(brc_context *context, const brc_split *split,
     for (int32_t k = 0; k < split->n; ++k)
         out[k] = NULL;
     if (split->n == 1) return build_scene(context, split->scene, n_threads, together, out);
-    if (together == BRC_APART) together = BRC_TOGETHER; /* overlaps are looked for among all */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, split->n, "parts of a scene"));
     for (int32_t k = 0; k < split->n; ++k)
         BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, together, &part[k]));

@@ -345,8 +345,7 @@ static brc_status measure_among_ranks(brc_context *context, brc_domain *domain)
     if (!domain->here) return BRC_OK;
     BRC_TRY(brc_ranks_least(context, 3, domain->bounds[0]));
     BRC_TRY(brc_ranks_most(context, 3, domain->bounds[1]));
-    BRC_TRY(brc_ranks_most(context, 1, &domain->quality.closure_worst));
-    BRC_TRY(brc_ranks_least(context, 1, &domain->quality.support_smallest));
+    BRC_TRY(brc_quality_agree(context, domain));
     return brc_cells_bring_free_corners(context, domain);
 }
 

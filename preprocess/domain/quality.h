@@ -11,6 +11,8 @@
  * n_elements_without_bond, n_pieces and the spreads. Counts of the builder are kept. The result does not depend on
  * n_threads (>= 1). */
 void brc_quality_measure(brc_domain *domain, int n_threads);
+/* All ranks, where they have the domain between them: its worst cases are those of all. */
+brc_status brc_quality_agree(brc_context *context, brc_domain *domain);
 /* A table a person reads, with the histogram of the number of bonds. */
 void brc_quality_print(FILE *file, const brc_domain *domain);
 
