@@ -100,7 +100,7 @@ static brc_status take_points(brc_context *context, const brc_build_request *req
 /* Who has the cells then. */
 static brc_together together_of(const brc_build_request *request)
 {
-    bool apart = request->together == BRC_APART && request->n_cracks == 0;
+    bool apart = request->together == BRC_APART;
     for (int32_t k = 0; k < request->n_limits; ++k)
         apart = apart && !brc_quality_is_of_directions(request->limits[k].number);
     return request->together == BRC_APART && !apart ? BRC_TOGETHER : request->together;

@@ -152,7 +152,7 @@ typedef enum brc_together {
     BRC_ALONE,    /* this one computes all */
     BRC_TOGETHER, /* all, each a range of runs, and all get all of them */
     BRC_APART     /* all, and corners and shared faces stay where they were computed (domain.h, here); only of cells,
-                   * without     cracks and limits of directions: else as BRC_TOGETHER */
+                   * without limits of directions: else as BRC_TOGETHER */
 } brc_together;
 
 typedef struct brc_build_request {

@@ -88,6 +88,35 @@ bodies:
     material: glass
 stages: [{name: none, solver: {dynamic: {steps: 1}}}]
 """
+# Two cracks from the start, one of them in a plane of faces.
+CRACKS = """
+version: 1
+title: A cracked block
+materials:
+  stone: {E: 50 GPa, nu: 0.2, density: 2500 kg/m^3, strength: {tension: 20 MPa, fracture_energy: 20 J/m^2}}
+model: dlsm
+bodies:
+  - name: block
+    shape: {box: {size: [20 mm, 12 mm, 12 mm]}}
+    fill: {noisy_grid: {elements: 5000, spread: 90 %, lloyd: 1, seed: 1}}
+    material: stone
+    pose: {rotation: [10 deg, 0, 0]}
+    cracks:
+      - {name: notch, patch: {rectangle: {corner: [10 mm, -20 mm, -20 mm], edge: [0, 40 mm, 0], other_edge: [0, 0, 24 mm]}}}
+      - {name: penny, patch: {disc: {centre: [12 mm, 6 mm, 6 mm], normal: [1, 0.2, 0.3], radius: 3 mm}}, flat: false}
+fracture: {criterion: bond-normal}
+stages:
+  - name: tear
+    solver: {dynamic: {duration: 4 us}}
+    loads:
+      - face_displacement: {set: x-, x: 0}
+      - pressure: {set: x+, value: -100 MPa}
+sensors:
+  broken: {fracture: broken}
+  closure: {energy: closure}
+  mouth: {face_mean: {set: notch, component: x}}
+output: {frames: 2, history_every: 4, picture: {colour: damage}}
+"""
 CHECKPOINTS = ["--set", "output.checkpoint.every=2 us"]
 FAILURES = []
 
@@ -188,6 +217,8 @@ with tempfile.TemporaryDirectory() as temporary:
     breaks("bodies-alone", 100)
     models = BODIES.replace("LID", "10.5 mm").replace("interactions:", "#").replace("fracture: {}", "#").replace("    material: glass\n", "    material: glass\n    model: dlsm-published\n")
     alike("models", models.replace("broken: {fracture: broken}", "out: {face_mean: {set: end, component: x}}").replace("{colour: damage}", "{colour: displacement}"), (2, 2))
+    alike("cracks", CRACKS, (3, 3), (4, 2))
+    breaks("cracks-alone", 100)
     for place in ("9.92 mm", "7 mm"):
         write("overlap.yaml", BODIES.replace("LID", place))
         said = [re.search(r"bodies 'block' and 'lid' overlap.*", start(n, n, "overlap.yaml", "-o", f"overlap-{n}").stderr) for n in (1, 3)]
