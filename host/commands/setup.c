@@ -14,21 +14,12 @@
 #include <omp.h>
 #include <string.h>
 
-/* Why machines cannot have domains between them, but each has all: something on the way asks for corners and faces of
- * all cells, as levels of statics do, which all ranks make alike. NULL: they can. */
-static const char *asks_for_all(const brc_scene *scene)
-{
-    if (brc_spill_folder()) return "BRECCIA_SPILL keeps it on a disk";
-    for (int32_t k = 0; k < scene->n_stages; ++k)
-        if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC) return "a stage is not dynamic";
-    return NULL;
-}
-
-/* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells. */
+/* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells, and
+ * has no more than that where nothing puts domains on a disk. */
 static brc_status build_among_firsts(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
 {
     brc_ranks_narrow();
-    const brc_together way = brc_ranks_count() == 1 ? BRC_ALONE : asks_for_all(split->scene) ? BRC_TOGETHER : BRC_APART;
+    const brc_together way = brc_ranks_count() == 1 ? BRC_ALONE : brc_spill_folder() ? BRC_TOGETHER : BRC_APART;
     brc_status status = brc_split_domains_build(context, split, n_threads, way, out);
     for (int32_t k = 0; status == BRC_OK && k < split->n; ++k)
         status = brc_checkpoint_sum_areas(context, out[k]);
@@ -39,11 +30,11 @@ static brc_status build_among_firsts(brc_context *context, const brc_split *spli
 static void tell_whole(brc_context *context, const brc_split *split, int32_t part, const brc_domain *domain)
 {
     char bodies[128];
-    const char *const why = asks_for_all(split->scene);
     if (domain->here || domain->pages.n > 0) return;
     brc_log(context, BRC_LOG_INFO, "each machine has the whole domain of %s: %s",
             brc_split_bodies(split, part, bodies, sizeof bodies),
-            why ? why : "it is of spheres or of files, or has limits of directions");
+            brc_spill_folder() ? "BRECCIA_SPILL keeps it on a disk"
+                               : "it is of spheres or of files, or has limits of directions");
 }
 
 /* All ranks, where some of a machine cannot see what the first has: they build it all. */

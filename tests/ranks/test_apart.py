@@ -117,6 +117,40 @@ sensors:
   mouth: {face_mean: {set: notch, component: x}}
 output: {frames: 2, history_every: 4, picture: {colour: damage}}
 """
+# Pulled without time, with levels; bonds break one after another; then it goes on in time.
+STATIC = """
+version: 1
+title: A bar with a crack, pulled slowly
+materials:
+  stone: {E: 50 GPa, nu: 0.2, density: 2500 kg/m^3, strength: {tension: 20 MPa, scatter: {weibull: {modulus: 20}}}}
+model: dlsm
+bodies:
+  - name: bar
+    shape: {box: {size: [20 mm, 12 mm, 12 mm]}}
+    fill: {noisy_grid: {elements: 4000, spread: 90 %, lloyd: 1, seed: 1}}
+    material: stone
+    cracks: [{name: notch, patch: {rectangle: {corner: [10 mm, -1 mm, -1 mm], edge: [0, 14 mm, 0], other_edge: [0, 0, 4 mm]}}}]
+fracture: {}
+stages:
+  - name: load
+    solver: {static: {increments: 2, preconditioner: multigrid}}
+    loads:
+      - face_displacement: {set: x-, x: 0, y: 0, z: 0}
+      - face_displacement: {set: x+, x: 1 um}
+  - name: crack
+    solver: {static: {events: {most: 12}, finite_strain: false, tolerance: 1e-6, preconditioner: multigrid}}
+    loads:
+      - face_displacement: {set: x-, x: 0, y: 0, z: 0}
+      - face_displacement: {set: x+, x: 10 um}
+  - name: release
+    solver: {dynamic: {steps: 20}}
+    loads: [{face_displacement: {set: x-, x: 0}}]
+sensors:
+  force: {reaction: {set: x+, component: x}}
+  broken: {fracture: broken}
+  closure: {energy: closure}
+output: {frames: 2, history_every: 4, picture: {colour: damage}}
+"""
 CHECKPOINTS = ["--set", "output.checkpoint.every=2 us"]
 FAILURES = []
 
@@ -219,6 +253,8 @@ with tempfile.TemporaryDirectory() as temporary:
     alike("models", models.replace("broken: {fracture: broken}", "out: {face_mean: {set: end, component: x}}").replace("{colour: damage}", "{colour: displacement}"), (2, 2))
     alike("cracks", CRACKS, (3, 3), (4, 2))
     breaks("cracks-alone", 100)
+    alike("static", STATIC, (3, 3), (3, 2))
+    breaks("static-alone", 10)
     for place in ("9.92 mm", "7 mm"):
         write("overlap.yaml", BODIES.replace("LID", place))
         said = [re.search(r"bodies 'block' and 'lid' overlap.*", start(n, n, "overlap.yaml", "-o", f"overlap-{n}").stderr) for n in (1, 3)]
