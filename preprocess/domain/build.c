@@ -97,20 +97,11 @@ static brc_status take_points(brc_context *context, const brc_build_request *req
     return BRC_OK;
 }
 
-/* Who has the cells then. */
-static brc_together together_of(const brc_build_request *request)
-{
-    bool apart = request->together == BRC_APART;
-    for (int32_t k = 0; k < request->n_limits; ++k)
-        apart = apart && !brc_quality_is_of_directions(request->limits[k].number);
-    return request->together == BRC_APART && !apart ? BRC_TOGETHER : request->together;
-}
-
 /* What building holds here of what it holds where one rank does all of it: 0.2 have all of several machines, the rest
  * lies apart (bench/results/2026-11-27-ranks-apart.md). */
 static double share_of(const brc_build_request *request)
 {
-    return together_of(request) == BRC_APART ? 0.2 + 0.8 / brc_ranks_count() : 1.0;
+    return request->together == BRC_APART ? 0.2 + 0.8 / brc_ranks_count() : 1.0;
 }
 
 /* Everything known before a seed is placed: solid, walls, grid. What is held is the caller's to free in any case. */
@@ -295,8 +286,8 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
     domain->position = w->position;
     domain->n_elements = w->n;
     w->position = NULL;
-    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads,
-                                          together_of(request), &w->walls, &cells));
+    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, request->together,
+                                          &w->walls, &cells));
     BRC_TRY_OR(cleanup, brc_half_edges_build(context, &cells, threshold, w->n_threads, domain));
     BRC_TRY_OR(cleanup, brc_conform_check(context, &w->walls, w->spacing, w->n_threads, domain));
     status = name_walls(context, w->solid, domain);

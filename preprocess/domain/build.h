@@ -151,8 +151,7 @@ typedef struct brc_quality_limit {
 typedef enum brc_together {
     BRC_ALONE,    /* this one computes all */
     BRC_TOGETHER, /* all, each a range of runs, and all get all of them */
-    BRC_APART     /* all, and corners and shared faces stay where they were computed (domain.h, here); only of cells,
-                   * without limits of directions: else as BRC_TOGETHER */
+    BRC_APART     /* all, and corners and shared faces of cells stay where they were computed (domain.h, here) */
 } brc_together;
 
 typedef struct brc_build_request {

@@ -30,8 +30,6 @@ typedef struct brc_quality_number {
 
 /* All of them, static; *n receives how many. */
 const brc_quality_number *brc_quality_numbers(int32_t *n);
-/* Whether the number of that name is one of all directions of bonds. */
-bool brc_quality_is_of_directions(const char name[64]);
 /* Compare a measured domain with limits. Beyond `warn`: one warning in the log each. Beyond `refuse`: BRC_BAD_INPUT,
  * one sentence that lists all broken limits with value, limit and cure. BRC_BAD_INPUT too for unknown names (with the
  * known ones), limits that are not finite, and numbers that this kind of elements does not have. */

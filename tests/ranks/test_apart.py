@@ -104,6 +104,9 @@ bodies:
     cracks:
       - {name: notch, patch: {rectangle: {corner: [10 mm, -20 mm, -20 mm], edge: [0, 40 mm, 0], other_edge: [0, 0, 24 mm]}}}
       - {name: penny, patch: {disc: {centre: [12 mm, 6 mm, 6 mm], normal: [1, 0.2, 0.3], radius: 3 mm}}, flat: false}
+quality:
+  anisotropy_fabric: {warn: 1e-6}
+  support: {warn: 10}
 fracture: {criterion: bond-normal}
 stages:
   - name: tear
