@@ -33,7 +33,7 @@ static void tell_whole(brc_context *context, const brc_split *split, int32_t par
     if (domain->here || domain->pages.n > 0) return;
     brc_log(context, BRC_LOG_INFO, "each machine has the whole domain of %s: %s",
             brc_split_bodies(split, part, bodies, sizeof bodies),
-            brc_spill_folder() ? "BRECCIA_SPILL keeps it on a disk" : "it is of spheres or of files");
+            brc_spill_folder() ? "BRECCIA_SPILL keeps it on a disk" : "it is of spheres or of a file");
 }
 
 /* All ranks, where some of a machine cannot see what the first has: they build it all. */

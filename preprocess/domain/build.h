@@ -190,11 +190,11 @@ brc_status brc_domain_estimate(brc_context *context, const brc_build_request *re
                                int64_t *bytes);
 
 /* Join several bodies into one domain (no bonds between them); element, face and vertex indices follow the order of the
- * inputs; walls and sets of equal name are merged. Inputs stay with the caller. All ranks, where they have one of the
- * bodies between them: then the joined domain too, and what they have of it at home moves there. name [n]: what
- * sentences call the bodies, NULL: by number, from 0. BRC_BAD_INPUT: no body, cells with spheres, bodies that overlap
- * (overlap.h), sets of two kinds under one name, more than 2^31 of anything; BRC_NO_MEMORY. */
+ * inputs; walls and sets of equal name are merged. Inputs stay with the caller. name [n]: what sentences call the
+ * bodies, NULL: by number, from 0. together: as the bodies were built; where BRC_APART all ranks call, which then have
+ * cells between them, and what they have of a body at home moves. BRC_BAD_INPUT: no body, cells with spheres, bodies
+ * that overlap (overlap.h), sets of two kinds under one name, more than 2^31 of anything; BRC_NO_MEMORY. */
 brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name,
-                           brc_domain **out);
+                           brc_together together, brc_domain **out);
 
 #endif

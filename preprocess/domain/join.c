@@ -160,7 +160,7 @@ static brc_status copy_whole(brc_context *context, int32_t n, const brc_domain *
     return BRC_OK;
 }
 
-/* Ranks have some bodies between them, and all of them then. */
+/* Ranks have the cells between them. */
 static brc_status copy_apart(brc_context *context, int32_t n, const brc_domain *const *parts, offsets total,
                              brc_domain *d)
 {
@@ -254,14 +254,14 @@ static brc_status describe(brc_context *context, int32_t n, const brc_domain *co
 }
 
 brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name,
-                           brc_domain **out)
+                           brc_together together, brc_domain **out)
 {
     *out = NULL;
     if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "joining %d bodies, there must be at least one", n);
     brc_domain *d = NULL;
     int32_t *wall = NULL;
     offsets total = {0};
-    bool grains = false, apart = false;
+    bool grains = false;
     BRC_TRY(check_kinds(context, n, parts, name));
     BRC_TRY(brc_overlap_check(context, n, parts, name));
     int64_t n_walls = 0, n_sets = 0, most_walls = 0;
@@ -270,7 +270,6 @@ brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *co
         n_walls += parts[k]->n_walls;
         n_sets += parts[k]->n_sets;
         grains = grains || parts[k]->grain;
-        apart = apart || parts[k]->here;
         if (parts[k]->n_walls > most_walls) most_walls = parts[k]->n_walls;
     }
     brc_status status = BRC_ALLOCATE(context, &d, 1, "joined domain");
@@ -299,7 +298,7 @@ brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *co
         }
         at = after(at, p);
     }
-    BRC_TRY_OR(cleanup, (apart ? copy_apart : copy_whole)(context, n, parts, total, d));
+    BRC_TRY_OR(cleanup, (together == BRC_APART && cells(d) ? copy_apart : copy_whole)(context, n, parts, total, d));
     if (d->n_bonds > 0) d->quality.tiny_face_area_fraction /= (double)d->n_bonds;
     brc_quality_measure(d, omp_get_max_threads());
     BRC_TRY_OR(cleanup, brc_quality_agree(context, d));
