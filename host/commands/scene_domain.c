@@ -119,7 +119,7 @@ static brc_status make_body(brc_context *context, const brc_scene *scene, int32_
     if (scene->bodies[index].domain_file[0]) return read_body(context, scene, index, out);
     brc_scene_request request;
     BRC_TRY(brc_scene_request_make(context, scene, index, n_threads, &request));
-    request.build.together = together == BRC_APART && scene->n_bodies > 1 ? BRC_TOGETHER : together;
+    request.build.together = together;
     const brc_status status = brc_domain_build(context, &request.build, out);
     brc_scene_request_free(&request);
     return status;
@@ -159,9 +159,9 @@ static brc_status make_bodies(brc_context *context, const brc_scene *scene, int 
 }
 
 /* One domain of all; a single body is handed over. */
-static brc_status join_bodies(brc_context *context, bodies *b, brc_domain **out)
+static brc_status join_bodies(brc_context *context, bodies *b, brc_together together, brc_domain **out)
 {
-    if (b->n > 1) return brc_domain_join(context, b->n, (const brc_domain *const *)b->domain, b->name, out);
+    if (b->n > 1) return brc_domain_join(context, b->n, (const brc_domain *const *)b->domain, b->name, together, out);
     *out = b->domain[0];
     b->domain[0] = NULL;
     return BRC_OK;
@@ -173,7 +173,7 @@ static brc_status build_scene(brc_context *context, const brc_scene *scene, int 
     bodies own;
     *out = NULL;
     brc_status status = make_bodies(context, scene, n_threads, together, &own);
-    if (status == BRC_OK) status = join_bodies(context, &own, out);
+    if (status == BRC_OK) status = join_bodies(context, &own, together, out);
     if (status == BRC_OK) status = brc_sets_build(context, scene->n_sets, scene->sets, *out);
     free_bodies(&own);
     if (status != BRC_OK) brc_domain_free(out);
@@ -267,13 +267,12 @@ brc_status brc_split_domains_build(brc_context *context, const brc_split *split,
     for (int32_t k = 0; k < split->n; ++k)
         out[k] = NULL;
     if (split->n == 1) return build_scene(context, split->scene, n_threads, together, out);
-    if (together == BRC_APART) together = BRC_TOGETHER; /* overlaps are looked for among all */
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &part, split->n, "parts of a scene"));
     for (int32_t k = 0; k < split->n; ++k)
         BRC_TRY_OR(cleanup, make_bodies(context, split->part[k].scene, n_threads, together, &part[k]));
     BRC_TRY_OR(cleanup, check_overlaps(context, split->n, part));
     for (int32_t k = 0; k < split->n; ++k)
-        BRC_TRY_OR(cleanup, join_bodies(context, &part[k], &out[k]));
+        BRC_TRY_OR(cleanup, join_bodies(context, &part[k], together, &out[k]));
     status = build_sets(context, split, out);
 cleanup:
     for (int32_t k = 0; part && k < split->n; ++k)

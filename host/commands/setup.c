@@ -14,23 +14,12 @@
 #include <omp.h>
 #include <string.h>
 
-/* Why machines cannot have a domain between them, but each has all: something on the way asks for corners and faces of
- * all cells, as levels of statics do, which all ranks make alike. NULL: they can. */
-static const char *asks_for_all(const brc_split *split)
-{
-    const brc_scene *scene = split->scene;
-    if (brc_spill_folder()) return "BRECCIA_SPILL keeps it on a disk";
-    if (split->n > 1 || scene->n_bodies > 1) return "the scene has several bodies";
-    for (int32_t k = 0; k < scene->n_stages; ++k)
-        if (scene->stages[k].solver != BRC_SOLVER_DYNAMIC) return "a stage is not dynamic";
-    return NULL;
-}
-
-/* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells. */
+/* With the threads of all ranks of this machine, whose first this is; with others each computes some of the cells, and
+ * has no more than that where nothing puts domains on a disk. */
 static brc_status build_among_firsts(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
 {
     brc_ranks_narrow();
-    const brc_together way = brc_ranks_count() == 1 ? BRC_ALONE : asks_for_all(split) ? BRC_TOGETHER : BRC_APART;
+    const brc_together way = brc_ranks_count() == 1 ? BRC_ALONE : brc_spill_folder() ? BRC_TOGETHER : BRC_APART;
     brc_status status = brc_split_domains_build(context, split, n_threads, way, out);
     for (int32_t k = 0; status == BRC_OK && k < split->n; ++k)
         status = brc_checkpoint_sum_areas(context, out[k]);
@@ -38,12 +27,24 @@ static brc_status build_among_firsts(brc_context *context, const brc_split *spli
     return status;
 }
 
-static void tell_whole(brc_context *context, const brc_split *split, const brc_domain *domain)
+static void tell_whole(brc_context *context, const brc_split *split, int32_t part, const brc_domain *domain)
 {
-    const char *const why = asks_for_all(split);
-    if (!domain->here && domain->pages.n == 0)
-        brc_log(context, BRC_LOG_INFO, "each machine has the whole domain: %s",
-                why ? why : "it is of spheres or of a file, or has cracks or limits of directions");
+    char bodies[128];
+    if (domain->here || domain->pages.n > 0) return;
+    brc_log(context, BRC_LOG_INFO, "each machine has the whole domain of %s: %s",
+            brc_split_bodies(split, part, bodies, sizeof bodies),
+            brc_spill_folder() ? "BRECCIA_SPILL keeps it on a disk" : "it is of spheres or of a file");
+}
+
+/* All ranks, where some of a machine cannot see what the first has: they build it all. */
+static brc_status build_on_each(brc_context *context, const brc_split *split, int n_threads, brc_domain **out)
+{
+    for (int32_t k = 0; k < split->n; ++k)
+        if (out[k] && out[k]->here) BRC_TRY(brc_domain_bring_whole(context, out[k]));
+    if (brc_ranks_here().local == 0) return BRC_OK;
+    for (int32_t k = 0; k < split->n; ++k)
+        brc_domain_free(&out[k]);
+    return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
 }
 
 /* On several ranks the first of each machine builds. */
@@ -51,16 +52,17 @@ static brc_status build(brc_context *context, const brc_split *split, int n_thre
 {
     const brc_ranks_place here = brc_ranks_here();
     const int each = n_threads > 0 ? n_threads : omp_get_max_threads();
-    bool shared = here.count > 1;
-    if (!shared) return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
+    bool all = true, shared;
+    if (here.count == 1) return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
     if (here.local == 0) BRC_TRY(build_among_firsts(context, split, each * here.local_count, out));
-    for (int32_t k = 0; shared && k < split->n; ++k)
+    for (int32_t k = 0; k < split->n; ++k) {
         BRC_TRY(brc_domain_share(context, &out[k], &shared));
-    if (shared && here.local_count < here.count) tell_whole(context, split, out[0]);
-    if (shared || here.local == 0) return BRC_OK;
-    for (int32_t k = 0; k < split->n; ++k)
-        brc_domain_free(&out[k]);
-    return brc_split_domains_build(context, split, n_threads, BRC_ALONE, out);
+        all = all && shared;
+    }
+    if (!all) return build_on_each(context, split, n_threads, out);
+    for (int32_t k = 0; k < split->n && here.local_count < here.count; ++k)
+        tell_whole(context, split, k, out[k]);
+    return BRC_OK;
 }
 
 brc_status brc_setup_domains(brc_context *context, brc_scene *scene, const brc_domain *given, int n_threads,

@@ -219,12 +219,20 @@ void brc_recorder_spill(const brc_recorder *recorder, bool begin)
 /* Where ranks have the cells between them, the one that writes gets all, in a file where its folder has room. */
 static brc_status bring_cells(brc_recorder *r, const brc_assembly *assembly)
 {
+    double n = 0;
     for (int32_t k = 0; k < assembly->n; ++k) {
         const brc_domain *d = brc_simulation_domain(assembly->part[k]);
-        if (!d->here) continue;
+        n += d->here ? (double)d->n_elements : 0;
+    }
+    if (n == 0) return BRC_OK;
+    brc_spill_into(brc_file_writes() ? r->folder : NULL);
+    r->spills = brc_file_writes() && brc_spill_room() > BYTES_OF_A_CELL * n;
+    brc_spill_into(NULL);
+    for (int32_t k = 0; k < assembly->n; ++k) {
+        const brc_domain *d = brc_simulation_domain(assembly->part[k]);
         double *const block[] = {d->vertex, d->area_vector, d->face_centroid};
-        brc_spill_into(brc_file_writes() ? r->folder : NULL);
-        r->spills = brc_file_writes() && brc_spill_room() > BYTES_OF_A_CELL * (double)d->n_elements;
+        if (!d->here) continue;
+        brc_recorder_spill(r, true);
         for (size_t b = 0; r->spills && b < sizeof block / sizeof *block; ++b)
             r->spills = brc_memory_spill_sparse(block[b]);
         brc_spill_into(NULL);

@@ -141,7 +141,7 @@ brc_status brc_cells_bring(brc_context *context, brc_cells *cells)
 brc_status brc_cells_mark_apart(brc_context *context, brc_domain *domain)
 {
     const int64_t n = domain->n_elements;
-    BRC_TRY(BRC_ALLOCATE(context, &domain->here, n, "cells of a rank"));
+    if (!domain->here) BRC_TRY(BRC_ALLOCATE(context, &domain->here, n, "cells of a rank"));
     BRC_TRY(BRC_ALLOCATE(context, &domain->home, brc_ranks_count() + 1, "cells of ranks"));
     for (int32_t k = 0; k < brc_ranks_count(); ++k) {
         const brc_run_range range = brc_elements_of_rank(n, k, brc_ranks_count());

@@ -97,20 +97,11 @@ static brc_status take_points(brc_context *context, const brc_build_request *req
     return BRC_OK;
 }
 
-/* Who has the cells then. */
-static brc_together together_of(const brc_build_request *request)
-{
-    bool apart = request->together == BRC_APART && request->n_cracks == 0;
-    for (int32_t k = 0; k < request->n_limits; ++k)
-        apart = apart && !brc_quality_is_of_directions(request->limits[k].number);
-    return request->together == BRC_APART && !apart ? BRC_TOGETHER : request->together;
-}
-
 /* What building holds here of what it holds where one rank does all of it: 0.2 have all of several machines, the rest
  * lies apart (bench/results/2026-11-27-ranks-apart.md). */
 static double share_of(const brc_build_request *request)
 {
-    return together_of(request) == BRC_APART ? 0.2 + 0.8 / brc_ranks_count() : 1.0;
+    return request->together == BRC_APART ? 0.2 + 0.8 / brc_ranks_count() : 1.0;
 }
 
 /* Everything known before a seed is placed: solid, walls, grid. What is held is the caller's to free in any case. */
@@ -295,8 +286,8 @@ static brc_status build_cells(brc_context *context, work *w, brc_domain *domain)
     domain->position = w->position;
     domain->n_elements = w->n;
     w->position = NULL;
-    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads,
-                                          together_of(request), &w->walls, &cells));
+    BRC_TRY_OR(cleanup, brc_conform_cells(context, domain->position, w->n, w->spacing, w->n_threads, request->together,
+                                          &w->walls, &cells));
     BRC_TRY_OR(cleanup, brc_half_edges_build(context, &cells, threshold, w->n_threads, domain));
     BRC_TRY_OR(cleanup, brc_conform_check(context, &w->walls, w->spacing, w->n_threads, domain));
     status = name_walls(context, w->solid, domain);
@@ -345,8 +336,7 @@ static brc_status measure_among_ranks(brc_context *context, brc_domain *domain)
     if (!domain->here) return BRC_OK;
     BRC_TRY(brc_ranks_least(context, 3, domain->bounds[0]));
     BRC_TRY(brc_ranks_most(context, 3, domain->bounds[1]));
-    BRC_TRY(brc_ranks_most(context, 1, &domain->quality.closure_worst));
-    BRC_TRY(brc_ranks_least(context, 1, &domain->quality.support_smallest));
+    BRC_TRY(brc_quality_agree(context, domain));
     return brc_cells_bring_free_corners(context, domain);
 }
 

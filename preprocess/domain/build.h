@@ -151,8 +151,7 @@ typedef struct brc_quality_limit {
 typedef enum brc_together {
     BRC_ALONE,    /* this one computes all */
     BRC_TOGETHER, /* all, each a range of runs, and all get all of them */
-    BRC_APART     /* all, and corners and shared faces stay where they were computed (domain.h, here); only of cells,
-                   * without     cracks and limits of directions: else as BRC_TOGETHER */
+    BRC_APART     /* all, and corners and shared faces of cells stay where they were computed (domain.h, here) */
 } brc_together;
 
 typedef struct brc_build_request {
@@ -192,9 +191,10 @@ brc_status brc_domain_estimate(brc_context *context, const brc_build_request *re
 
 /* Join several bodies into one domain (no bonds between them); element, face and vertex indices follow the order of the
  * inputs; walls and sets of equal name are merged. Inputs stay with the caller. name [n]: what sentences call the
- * bodies, NULL: by number, from 0. BRC_BAD_INPUT: no body, cells with spheres, bodies that overlap (overlap.h), sets of
- * two kinds under one name, more than 2^31 of anything; BRC_NO_MEMORY. */
+ * bodies, NULL: by number, from 0. together: as the bodies were built; where BRC_APART all ranks call, which then have
+ * cells between them, and what they have of a body at home moves. BRC_BAD_INPUT: no body, cells with spheres, bodies
+ * that overlap (overlap.h), sets of two kinds under one name, more than 2^31 of anything; BRC_NO_MEMORY. */
 brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name,
-                           brc_domain **out);
+                           brc_together together, brc_domain **out);
 
 #endif

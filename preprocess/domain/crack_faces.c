@@ -1,8 +1,11 @@
-/* A domain keeps polygons of free faces only; those of the opened ones are found again (outline.h). */
+/* A domain keeps polygons of free faces only; those of the opened ones are found again (outline.h), by the rank that
+ * has the cell, as are their places. */
 #include "crack_faces.h"
 
 #include "../../host/base/memory.h"
+#include "../../host/base/ranks.h"
 #include "../cells/outline.h"
+#include "domain_rows.h"
 
 #include <string.h>
 
@@ -10,6 +13,7 @@
 typedef struct opened {
     int64_t n;
     int32_t *half_edge;       /* [n] */
+    double *face;             /* [n][6] area vectors and centroids */
     int64_t *polygon_start;   /* [n + 1] */
     int32_t *polygon;         /* indices into the domain's vertex */
     brc_outline_corner *room; /* for the corners of any cell */
@@ -25,7 +29,7 @@ static void insert(opened *o, int64_t first, int32_t h, const int32_t *wall, con
     o->half_edge[k] = h;
 }
 
-static brc_status find_opened(brc_context *context, const int32_t *wall, const brc_domain *d, opened *o)
+static brc_status list_opened(brc_context *context, const int32_t *wall, const brc_domain *d, opened *o)
 {
     int64_t n = 0, n_corners = 0, most = 0;
     for (int64_t e = 0; e < d->n_elements; ++e) {
@@ -38,6 +42,7 @@ static brc_status find_opened(brc_context *context, const int32_t *wall, const b
         }
     }
     BRC_TRY(BRC_ALLOCATE(context, &o->half_edge, n, "opened faces"));
+    BRC_TRY(BRC_ALLOCATE(context, &o->face, 6 * n, "opened faces"));
     BRC_TRY(BRC_ALLOCATE(context, &o->polygon_start, n + 1, "polygons of opened faces"));
     BRC_TRY(BRC_ALLOCATE(context, &o->polygon, n_corners, "corners of opened faces"));
     BRC_TRY(BRC_ALLOCATE(context, &o->room, 2 * most, "corners of a cell"));
@@ -45,16 +50,67 @@ static brc_status find_opened(brc_context *context, const int32_t *wall, const b
         const int64_t first = o->n;
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
             if (wall[d->bond[h]] >= 0) insert(o, first, (int32_t)h, wall, d);
-        for (int64_t k = first; k < o->n; ++k) {
-            const int64_t count = brc_outline(d, e, o->half_edge[k], o->room, o->polygon + o->polygon_start[k]);
-            if (count == 0)
-                return BRC_FAIL(context, BRC_INTERNAL,
-                                "the corners of element %lld do not outline its face with element %d", (long long)e,
-                                d->neighbour[o->half_edge[k]]);
-            o->polygon_start[k + 1] = o->polygon_start[k] + count;
-        }
     }
     return BRC_OK;
+}
+
+static int64_t element_of(const brc_domain *d, const opened *o, int64_t k)
+{
+    return d->neighbour[d->twin[o->half_edge[k]]];
+}
+
+/* Polygons of the faces of cells that are this rank's, one after another from the beginning of `polygon`, with their
+ * lengths in polygon_start, behind their place. */
+static brc_status outline_mine(brc_context *context, const brc_domain *d, opened *o)
+{
+    int64_t to = 0;
+    for (int64_t k = 0; k < o->n; ++k) {
+        const int64_t e = element_of(d, o, k);
+        if (!brc_domain_mine(d, e)) continue;
+        const int64_t count = brc_outline(d, e, o->half_edge[k], o->room, o->polygon + to);
+        if (count == 0)
+            return BRC_FAIL(context, BRC_INTERNAL,
+                            "the corners of element %lld do not outline its face with element %d", (long long)e,
+                            d->neighbour[o->half_edge[k]]);
+        o->polygon_start[k + 1] = count;
+        to += count;
+    }
+    return BRC_OK;
+}
+
+/* The polygons of all ranks, in the order of faces, which is that of their cells, and so of ranks. */
+static brc_status bring_polygons(brc_context *context, const brc_domain *d, opened *o)
+{
+    const int32_t count = brc_ranks_count(), mine = brc_ranks_mine();
+    int64_t n = 0;
+    BRC_LOCAL(context, count + 1, int64_t, first, "opened faces of ranks");
+    BRC_LOCAL(context, count, int64_t, n_of, "opened faces of ranks");
+    for (int32_t k = 0; k < count; first[++k] = n) {
+        while (n < o->n && element_of(d, o, n) < d->home[k + 1])
+            ++n;
+        n_of[k] = n - first[k];
+    }
+    int64_t *const length = o->polygon_start + 1;
+    BRC_TRY(brc_ranks_gather_all(context, length + first[mine], sizeof *length, n_of, length));
+    for (int32_t k = 0; k < count; ++k) {
+        n_of[k] = 0;
+        for (int64_t f = first[k]; f < first[k + 1]; ++f)
+            n_of[k] += length[f];
+    }
+    BRC_LOCAL(context, n_of[mine], int32_t, own, "corners of opened faces");
+    memcpy(own, o->polygon, (size_t)n_of[mine] * sizeof *own);
+    return brc_ranks_gather_all(context, own, sizeof *own, n_of, o->polygon);
+}
+
+static brc_status find_opened(brc_context *context, const int32_t *wall, const brc_domain *d, opened *o)
+{
+    BRC_TRY(list_opened(context, wall, d, o));
+    const brc_status status = outline_mine(context, d, o);
+    BRC_TRY(d->here ? brc_ranks_agree(context, status) : status);
+    if (d->here) BRC_TRY(bring_polygons(context, d, o));
+    for (int64_t k = 0; k < o->n; ++k)
+        o->polygon_start[k + 1] += o->polygon_start[k];
+    return brc_domain_faces(context, d, o->n, o->half_edge, o->face);
 }
 
 /* The arrays of free faces that grow. */
@@ -98,8 +154,7 @@ static void merge_faces(const brc_domain *d, const opened *o, const int32_t *wal
                      d->free_polygon + d->free_polygon_start[a],
                      d->free_polygon_start[a + 1] - d->free_polygon_start[a]);
         for (; k < o->n && o->half_edge[k] < d->row_start[e + 1]; ++k, ++to) {
-            const int64_t h = o->half_edge[k];
-            put_face(f, to, e, wall[d->bond[h]], d->area_vector + 3 * h, d->face_centroid + 3 * h,
+            put_face(f, to, e, wall[d->bond[o->half_edge[k]]], o->face + 6 * k, o->face + 6 * k + 3,
                      o->polygon + o->polygon_start[k], o->polygon_start[k + 1] - o->polygon_start[k]);
         }
         f->start[e + 1] = to;
@@ -148,7 +203,7 @@ static void remove_bonds(const int32_t *wall, int32_t *place, brc_domain *d)
             if (wall[d->bond[h]] >= 0) continue;
             d->neighbour[to] = d->neighbour[h];
             d->twin[to] = place[d->twin[h]];
-            if (d->area_vector) {
+            if (d->area_vector && brc_domain_has(d, e)) {
                 memmove(d->area_vector + 3 * (int64_t)to, d->area_vector + 3 * h, 3 * sizeof(double));
                 memmove(d->face_centroid + 3 * (int64_t)to, d->face_centroid + 3 * h, 3 * sizeof(double));
             }
@@ -183,6 +238,7 @@ brc_status brc_crack_faces_open(brc_context *context, const int32_t *wall, brc_d
 cleanup:
     brc_memory_free(place);
     brc_memory_free(o.half_edge);
+    brc_memory_free(o.face);
     brc_memory_free(o.polygon_start);
     brc_memory_free(o.polygon);
     brc_memory_free(o.room);

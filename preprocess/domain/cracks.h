@@ -28,9 +28,10 @@ brc_status brc_cracks_mirror_seeds(brc_context *context, int32_t n_cracks, const
  * polygons of the face both shared, behind the free faces their element has, by crack and then by neighbour; a bond
  * that crosses several cracks belongs to the first. Rows, twins and bonds are renumbered: all promises of domain.h hold
  * again; closures do not change. *n_cut counts the bonds. Coordinates after the pose, positions and volumes set; before
- * sets are built and quality is measured. Elements that lose all bonds are said as a warning. Refused with
- * BRC_BAD_INPUT: cracks that brc_cracks_check refuses, the name of a wall, a crack that cuts no bond (with the nearest
- * element's distance); BRC_INTERNAL when sets of faces exist already; BRC_NO_MEMORY. */
+ * sets are built and quality is measured. All ranks, where they have the domain between them. Elements that lose all
+ * bonds are said as a warning. Refused with BRC_BAD_INPUT: cracks that brc_cracks_check refuses, the name of a wall, a
+ * crack that cuts no bond (with the nearest element's distance); BRC_INTERNAL when sets of faces exist already;
+ * BRC_NO_MEMORY. */
 brc_status brc_cracks_cut(brc_context *context, int32_t n, const brc_crack *cracks, brc_domain *domain, int64_t *n_cut);
 
 #endif

@@ -31,6 +31,10 @@ brc_status brc_domain_elements(brc_context *context, const brc_domain *domain, i
 /* The same of value [n_bonds], whose bonds count with their smaller element. */
 brc_status brc_domain_bonds(brc_context *context, const brc_domain *domain, double *value);
 
+/* All ranks: cells of `from` move to their homes in `to`, where cell e is cell `at` + e; from->here NULL: each rank has
+ * them and copies. Rows of both are there, and homes of `to`. */
+brc_status brc_domain_settle(brc_context *context, const brc_domain *from, int64_t at, const brc_domain *to);
+
 /* Where the arrays are of which a rank has a part. */
 enum { BRC_DOMAIN_PARTS = 5 };
 void brc_domain_parts(brc_domain *domain, void **out[BRC_DOMAIN_PARTS]);

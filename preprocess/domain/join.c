@@ -1,6 +1,8 @@
 /* Bodies side by side in one domain: every index of a part is shifted by what came before it. */
 #include "../../host/base/memory.h"
+#include "../cells/cells_ranks.h"
 #include "build.h"
+#include "domain_rows.h"
 #include "overlap.h"
 #include "quality.h"
 #include "sets.h"
@@ -42,21 +44,29 @@ static offsets after(offsets at, const brc_domain *d)
     return at;
 }
 
-/* What only cells have. */
+/* What only cells have of which all ranks have all. */
 static brc_status allocate_faces(brc_context *context, offsets total, brc_domain *d)
 {
-    const int64_t n = total.elements, h = total.half_edges, f = total.free_faces;
-    BRC_TRY(BRC_ALLOCATE(context, &d->area_vector, 3 * h, "area vectors"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->face_centroid, 3 * h, "face centroids"));
+    const int64_t n = total.elements, f = total.free_faces;
     BRC_TRY(BRC_ALLOCATE(context, &d->free_start, n + 1, "rows of free faces"));
     BRC_TRY(BRC_ALLOCATE(context, &d->free_element, f, "elements of free faces"));
     BRC_TRY(BRC_ALLOCATE(context, &d->free_area_vector, 3 * f, "free area vectors"));
     BRC_TRY(BRC_ALLOCATE(context, &d->free_centroid, 3 * f, "free face centroids"));
     BRC_TRY(BRC_ALLOCATE(context, &d->free_wall, f, "walls of free faces"));
     BRC_TRY(BRC_ALLOCATE(context, &d->vertex_start, n + 1, "rows of corners"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->vertex, 3 * total.vertices, "cell corners"));
     BRC_TRY(BRC_ALLOCATE(context, &d->free_polygon_start, f + 1, "free polygons"));
     return BRC_ALLOCATE(context, &d->free_polygon, total.polygon, "corners of free polygons");
+}
+
+/* Of which they may have parts: by brc_domain_settle then. */
+static brc_status allocate_parts(brc_context *context, offsets total, brc_domain *d)
+{
+    BRC_TRY(BRC_ALLOCATE(context, &d->centroid, 3 * total.elements, "centroids"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->inertia, 6 * total.elements, "inertia"));
+    if (!cells(d)) return BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(context, &d->area_vector, 3 * total.half_edges, "area vectors"));
+    BRC_TRY(BRC_ALLOCATE(context, &d->face_centroid, 3 * total.half_edges, "face centroids"));
+    return BRC_ALLOCATE(context, &d->vertex, 3 * total.vertices, "cell corners");
 }
 
 static brc_status allocate(brc_context *context, offsets total, bool grains, brc_domain *d)
@@ -74,8 +84,6 @@ static brc_status allocate(brc_context *context, offsets total, bool grains, brc
     d->n_free_faces = total.free_faces;
     BRC_TRY(BRC_ALLOCATE(context, &d->position, 3 * n, "positions"));
     BRC_TRY(BRC_ALLOCATE(context, &d->volume, n, "volumes"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->centroid, 3 * n, "centroids"));
-    BRC_TRY(BRC_ALLOCATE(context, &d->inertia, 6 * n, "inertia"));
     BRC_TRY(BRC_ALLOCATE(context, &d->region, n, "regions"));
     BRC_TRY(BRC_ALLOCATE(context, &d->body, n, "bodies"));
     BRC_TRY(BRC_ALLOCATE(context, &d->row_start, n + 1, "rows of half-edges"));
@@ -111,8 +119,6 @@ static void copy_part(const brc_domain *p, offsets at, const int32_t *wall, brc_
     const int64_t n = p->n_elements, h = p->n_half_edges, f = p->n_free_faces;
     copy(d->position + 3 * at.elements, p->position, 3 * n);
     copy(d->volume + at.elements, p->volume, n);
-    copy(d->centroid + 3 * at.elements, p->centroid, 3 * n);
-    copy(d->inertia + 6 * at.elements, p->inertia, 6 * n);
     copy_shifted(d->region + at.elements, p->region, n, 0);
     copy_shifted(d->body + at.elements, p->body, n, 0);
     copy_rows(d->row_start + at.elements, p->row_start, n, at.half_edges);
@@ -126,8 +132,6 @@ static void copy_part(const brc_domain *p, offsets at, const int32_t *wall, brc_
         copy(d->radius + at.elements, p->radius, n);
         return;
     }
-    copy(d->area_vector + 3 * at.half_edges, p->area_vector, 3 * h);
-    copy(d->face_centroid + 3 * at.half_edges, p->face_centroid, 3 * h);
     copy_rows(d->free_start + at.elements, p->free_start, n, at.free_faces);
     copy_shifted(d->free_element + at.free_faces, p->free_element, f, at.elements);
     copy(d->free_area_vector + 3 * at.free_faces, p->free_area_vector, 3 * f);
@@ -135,9 +139,41 @@ static void copy_part(const brc_domain *p, offsets at, const int32_t *wall, brc_
     for (int64_t k = 0; k < f; ++k)
         d->free_wall[at.free_faces + k] = wall[p->free_wall[k]];
     copy_rows(d->vertex_start + at.elements, p->vertex_start, n, at.vertices);
-    copy(d->vertex + 3 * at.vertices, p->vertex, 3 * p->vertex_start[n]);
     copy_rows(d->free_polygon_start + at.free_faces, p->free_polygon_start, f, at.polygon);
     copy_shifted(d->free_polygon + at.polygon, p->free_polygon, p->free_polygon_start[f], at.vertices);
+}
+
+static brc_status copy_whole(brc_context *context, int32_t n, const brc_domain *const *parts, offsets total,
+                             brc_domain *d)
+{
+    offsets at = {0};
+    BRC_TRY(allocate_parts(context, total, d));
+    for (int32_t k = 0; k < n; at = after(at, parts[k++])) {
+        const brc_domain *p = parts[k];
+        copy(d->centroid + 3 * at.elements, p->centroid, 3 * p->n_elements);
+        copy(d->inertia + 6 * at.elements, p->inertia, 6 * p->n_elements);
+        if (!cells(p)) continue;
+        copy(d->area_vector + 3 * at.half_edges, p->area_vector, 3 * p->n_half_edges);
+        copy(d->face_centroid + 3 * at.half_edges, p->face_centroid, 3 * p->n_half_edges);
+        copy(d->vertex + 3 * at.vertices, p->vertex, 3 * p->vertex_start[p->n_elements]);
+    }
+    return BRC_OK;
+}
+
+/* Ranks have the cells between them. */
+static brc_status copy_apart(brc_context *context, int32_t n, const brc_domain *const *parts, offsets total,
+                             brc_domain *d)
+{
+    offsets at = {0};
+    BRC_TRY(brc_domain_make_room(context, d));
+    BRC_TRY(brc_cells_mark_apart(context, d));
+    BRC_TRY(BRC_ALLOCATE(context, &d->free_corner, 3 * total.polygon, "corners of free faces"));
+    for (int32_t k = 0; k < n; at = after(at, parts[k++])) {
+        BRC_TRY(brc_domain_settle(context, parts[k], at.elements, d));
+        for (int64_t p = 0; p < parts[k]->free_polygon_start[parts[k]->n_free_faces]; ++p)
+            copy(d->free_corner + 3 * (at.polygon + p), brc_domain_free_corner(parts[k], p), 3);
+    }
+    return BRC_OK;
 }
 
 /* Index of the wall in the joined domain, which has room for it. */
@@ -218,7 +254,7 @@ static brc_status describe(brc_context *context, int32_t n, const brc_domain *co
 }
 
 brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *const *parts, const char *const *name,
-                           brc_domain **out)
+                           brc_together together, brc_domain **out)
 {
     *out = NULL;
     if (n < 1) return BRC_FAIL(context, BRC_BAD_INPUT, "joining %d bodies, there must be at least one", n);
@@ -262,8 +298,10 @@ brc_status brc_domain_join(brc_context *context, int32_t n, const brc_domain *co
         }
         at = after(at, p);
     }
+    BRC_TRY_OR(cleanup, (together == BRC_APART && cells(d) ? copy_apart : copy_whole)(context, n, parts, total, d));
     if (d->n_bonds > 0) d->quality.tiny_face_area_fraction /= (double)d->n_bonds;
     brc_quality_measure(d, omp_get_max_threads());
+    BRC_TRY_OR(cleanup, brc_quality_agree(context, d));
     BRC_TRY_OR(cleanup, describe(context, n, parts, d));
     *out = d;
     d = NULL;

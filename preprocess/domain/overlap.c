@@ -1,8 +1,11 @@
 /* The elements of one body near the other are entered into the boxes of a grid that they cover; an element of the other
- * asks those of its own box. */
+ * asks those of its own box. Ranks that have a body between them enter their own cells: what is asked with, positions,
+ * radii and corners of free faces, all have. */
 #include "overlap.h"
 
 #include "../../host/base/memory.h"
+#include "../../host/base/ranks.h"
+#include "domain_rows.h"
 
 #include <math.h>
 #include <omp.h>
@@ -86,7 +89,7 @@ static void enter_elements(box_list *list)
 {
     int64_t first[3], last[3];
     for (int64_t e = list->body->n_elements - 1; e >= 0; --e) {
-        if (!covers(list, e, first, last)) continue;
+        if (!brc_domain_mine(list->body, e) || !covers(list, e, first, last)) continue;
         for (int64_t i = first[0]; i <= last[0]; ++i)
             for (int64_t j = first[1]; j <= last[1]; ++j)
                 for (int64_t k = first[2]; k <= last[2]; ++k) {
@@ -200,18 +203,24 @@ static int64_t box_of(const box_list *list, const double *x)
     return box;
 }
 
-/* A corner of a free face of cell e of `other` that lies deep inside the list's body; NULL: none. */
-static const double *deep_corner(const box_list *list, const brc_domain *other, int64_t e)
+/* The first corner of a free face of cell e of `other`, in free_polygon, that lies deep inside the list's body;
+ * INT64_MAX: none. */
+static int64_t deep_corner(const box_list *list, const brc_domain *other, int64_t e)
 {
     const double deep = CORNER_DEEP * list->body->quality.mean_spacing;
     for (int64_t p = other->free_polygon_start[other->free_start[e]];
          p < other->free_polygon_start[other->free_start[e + 1]]; ++p) {
-        const double *x = other->vertex + 3 * (int64_t)other->free_polygon[p];
+        const double *x = brc_domain_free_corner(other, p);
         const int64_t box = box_of(list, x);
         for (int64_t k = box < 0 ? 0 : list->start[box]; box >= 0 && k < list->start[box + 1]; ++k)
-            if (in_cell(x, list->body, list->element[k], deep, 0.0)) return x;
+            if (in_cell(x, list->body, list->element[k], deep, 0.0)) return p;
     }
-    return NULL;
+    return INT64_MAX;
+}
+
+static bool reaches_deep(const box_list *list, const brc_domain *other, int64_t e)
+{
+    return deep_corner(list, other, e) < INT64_MAX;
 }
 
 static bool element_overlaps(const box_list *list, const brc_domain *other, int64_t e)
@@ -223,6 +232,28 @@ static bool element_overlaps(const box_list *list, const brc_domain *other, int6
     return false;
 }
 
+/* How many elements of `other` some rank says so of, and the first of them. */
+static brc_status count_elements(brc_context *context, const box_list *list, const brc_domain *other,
+                                 bool (*says)(const box_list *, const brc_domain *, int64_t), int64_t *n,
+                                 int64_t *first)
+{
+    enum { BITS = 64 };
+    const int64_t n_words = (other->n_elements + BITS - 1) / BITS;
+    BRC_LOCAL(context, n_words, int64_t, word, "elements that overlap");
+#pragma omp parallel for schedule(dynamic, 4) num_threads(omp_get_max_threads())
+    for (int64_t w = 0; w < n_words; ++w)
+        for (int64_t e = w * BITS; e < (w + 1) * BITS && e < other->n_elements; ++e)
+            if (says(list, other, e)) word[w] |= (int64_t)(UINT64_C(1) << e % BITS);
+    if (list->body->here) BRC_TRY(brc_ranks_reduce(context, BRC_ANY_BIT, n_words, word));
+    *n = 0;
+    for (int64_t e = other->n_elements - 1; e >= 0; --e)
+        if ((uint64_t)word[e / BITS] >> e % BITS & 1) {
+            ++*n;
+            *first = e;
+        }
+    return BRC_OK;
+}
+
 /* How far `other` stands in `body`. */
 typedef struct finding {
     int64_t n, first;  /* elements whose positions do, and the first of them */
@@ -230,37 +261,30 @@ typedef struct finding {
     double corner[3];  /* of the first of them [m] */
 } finding;
 
+static brc_status find_in_boxes(brc_context *context, const box_list *list, const brc_domain *other, finding *out)
+{
+    int64_t first = 0, corner = INT64_MAX;
+    BRC_TRY(count_elements(context, list, other, element_overlaps, &out->n, &out->first));
+    if (out->n > 0 || is_sphere(list->body) || is_sphere(other)) return BRC_OK;
+    BRC_TRY(count_elements(context, list, other, reaches_deep, &out->n_corners, &first));
+    if (out->n_corners == 0) return BRC_OK;
+    corner = deep_corner(list, other, first);
+    if (list->body->here) BRC_TRY(brc_ranks_reduce(context, BRC_LEAST, 1, &corner));
+    memcpy(out->corner, brc_domain_free_corner(other, corner), sizeof out->corner);
+    return BRC_OK;
+}
+
 static brc_status find_inside(brc_context *context, const brc_domain *other, const brc_domain *body, finding *out)
 {
     box_list list = {.body = body, .reach = largest_radius(other)};
-    int64_t n = 0, n_corners = 0, first = INT64_MAX, first_corner = INT64_MAX;
-    brc_status status = BRC_OK;
     *out = (finding){.n = 0};
     for (int c = 0; c < 3; ++c) {
         list.low[c] = fmax(other->bounds[0][c], body->bounds[0][c] - list.reach);
         list.high[c] = fmin(other->bounds[1][c], body->bounds[1][c] + list.reach);
         if (!(list.low[c] < list.high[c])) return BRC_OK;
     }
-    BRC_TRY_OR(cleanup, make_boxes(context, &list));
-#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n)                    \
-    reduction(min : first)
-    for (int64_t e = 0; e < other->n_elements; ++e)
-        if (element_overlaps(&list, other, e)) {
-            ++n;
-            if (e < first) first = e;
-        }
-    *out = (finding){.n = n, .first = first};
-    if (n > 0 || is_sphere(body) || is_sphere(other)) goto cleanup;
-#pragma omp parallel for schedule(dynamic, 256) num_threads(omp_get_max_threads()) reduction(+ : n_corners)            \
-    reduction(min : first_corner)
-    for (int64_t e = 0; e < other->n_elements; ++e)
-        if (deep_corner(&list, other, e)) {
-            ++n_corners;
-            if (e < first_corner) first_corner = e;
-        }
-    out->n_corners = n_corners;
-    if (n_corners > 0) memcpy(out->corner, deep_corner(&list, other, first_corner), sizeof out->corner);
-cleanup:
+    brc_status status = make_boxes(context, &list);
+    if (status == BRC_OK) status = find_in_boxes(context, &list, other, out);
     brc_memory_free(list.start);
     brc_memory_free(list.element);
     return status;

@@ -3,6 +3,7 @@
 #include "quality.h"
 
 #include "../../host/base/memory.h"
+#include "../../host/base/ranks.h"
 
 #include <math.h>
 #include <string.h>
@@ -215,6 +216,13 @@ void brc_quality_measure(brc_domain *domain, int n_threads)
     q->closure_worst = worst;
     q->support_smallest = least;
     find_spread(domain, faces_value, domain->n_elements, n_threads, q->faces_spread);
+}
+
+brc_status brc_quality_agree(brc_context *context, brc_domain *domain)
+{
+    if (!domain->here) return BRC_OK;
+    BRC_TRY(brc_ranks_most(context, 1, &domain->quality.closure_worst));
+    return brc_ranks_least(context, 1, &domain->quality.support_smallest);
 }
 
 static void print_spread(FILE *file, const char *what, const double spread[N_RANKS], const char *of)

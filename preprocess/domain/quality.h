@@ -11,6 +11,8 @@
  * n_elements_without_bond, n_pieces and the spreads. Counts of the builder are kept. The result does not depend on
  * n_threads (>= 1). */
 void brc_quality_measure(brc_domain *domain, int n_threads);
+/* All ranks, where they have the domain between them: its worst cases are those of all. */
+brc_status brc_quality_agree(brc_context *context, brc_domain *domain);
 /* A table a person reads, with the histogram of the number of bonds. */
 void brc_quality_print(FILE *file, const brc_domain *domain);
 
@@ -28,8 +30,6 @@ typedef struct brc_quality_number {
 
 /* All of them, static; *n receives how many. */
 const brc_quality_number *brc_quality_numbers(int32_t *n);
-/* Whether the number of that name is one of all directions of bonds. */
-bool brc_quality_is_of_directions(const char name[64]);
 /* Compare a measured domain with limits. Beyond `warn`: one warning in the log each. Beyond `refuse`: BRC_BAD_INPUT,
  * one sentence that lists all broken limits with value, limit and cure. BRC_BAD_INPUT too for unknown names (with the
  * known ones), limits that are not finite, and numbers that this kind of elements does not have. */

@@ -3,7 +3,6 @@
 #include "quality.h"
 
 #include <math.h>
-#include <string.h>
 
 #define VALUE(name, expression)                                                                                        \
     static double name(const brc_domain *domain, const brc_isotropy *isotropy)                                         \
@@ -81,13 +80,4 @@ const brc_quality_number *brc_quality_numbers(int32_t *n)
 {
     *n = (int32_t)(sizeof numbers / sizeof *numbers);
     return numbers;
-}
-
-bool brc_quality_is_of_directions(const char name[64])
-{
-    int32_t n;
-    const brc_quality_number *const all = brc_quality_numbers(&n);
-    for (int32_t k = 0; k < n; ++k)
-        if (strncmp(all[k].name, name, 64) == 0) return all[k].of_directions;
-    return false;
 }

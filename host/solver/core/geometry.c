@@ -252,34 +252,45 @@ brc_status brc_geometry_store(brc_simulation *s, brc_state_store *store, const b
         &(brc_kept_fields){.table = &brc_geometry_fields, .owner = s->core, .bonds = bonds, .elements = elements});
 }
 
+static const double no_block[6] = {1, 1, 1, 0, 0, 0};
+
+/* Inverse of what holds an element at its place while its neighbours stay. */
+static void block_of(const brc_simulation *s, int64_t e, double block[6])
+{
+    const brc_domain *d = s->domain;
+    const brc_elastic *m = s->elastic + s->material_of_element[e];
+    const double along = m->lambda + m->mu > 0 ? m->lambda + m->mu : 0;
+    double sum[6] = {0};
+    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
+        double branch[3], area[3], offset[3], ratio;
+        half_edge_geometry(d, h, (int32_t)e, branch, area, offset, &ratio);
+        double n[3];
+        const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+        for (int c = 0; c < 3; ++c)
+            n[c] = area[c] / surface;
+        sum[0] += (m->mu + along * n[0] * n[0]) / ratio;
+        sum[1] += (m->mu + along * n[1] * n[1]) / ratio;
+        sum[2] += (m->mu + along * n[2] * n[2]) / ratio;
+        sum[3] += along * n[1] * n[2] / ratio;
+        sum[4] += along * n[0] * n[2] / ratio;
+        sum[5] += along * n[0] * n[1] / ratio;
+    }
+    memcpy(block, no_block, sizeof no_block);
+    if (d->row_start[e + 1] > d->row_start[e]) brc_sym3_pseudo_inverse(sum, 1e-12, block);
+}
+
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out)
 {
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
+    BRC_LOCAL(s->context, 6 * d->n_elements, double, blocks, "preconditioner");
 #pragma omp parallel for schedule(static)
-    for (int32_t r = 0; r < layout->n_rows; ++r) {
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        if (brc_domain_mine(d, e)) block_of(s, e, blocks + 6 * e);
+    if (d->here) BRC_TRY(brc_domain_elements(s->context, d, 6, blocks));
+    for (int64_t r = 0; r < layout->n_rows; ++r) {
         const int64_t e = layout->element_of_row[r];
-        double block[6] = {1, 1, 1, 0, 0, 0}, sum[6] = {0};
-        if (e >= 0) {
-            const brc_elastic *m = s->elastic + s->material_of_element[e];
-            const double along = m->lambda + m->mu > 0 ? m->lambda + m->mu : 0;
-            for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
-                double branch[3], area[3], offset[3], ratio;
-                half_edge_geometry(d, h, (int32_t)e, branch, area, offset, &ratio);
-                double n[3];
-                const double surface = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-                for (int c = 0; c < 3; ++c)
-                    n[c] = area[c] / surface;
-                sum[0] += (m->mu + along * n[0] * n[0]) / ratio;
-                sum[1] += (m->mu + along * n[1] * n[1]) / ratio;
-                sum[2] += (m->mu + along * n[2] * n[2]) / ratio;
-                sum[3] += along * n[1] * n[2] / ratio;
-                sum[4] += along * n[0] * n[2] / ratio;
-                sum[5] += along * n[0] * n[1] / ratio;
-            }
-            if (d->row_start[e + 1] > d->row_start[e]) brc_sym3_pseudo_inverse(sum, 1e-12, block);
-        }
-        memcpy(out + (int64_t)r * 6, block, sizeof block);
+        memcpy(out + 6 * r, e < 0 ? no_block : blocks + 6 * e, sizeof no_block);
     }
     return BRC_OK;
 }

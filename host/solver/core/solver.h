@@ -165,7 +165,7 @@ typedef void (*brc_shape_refinement)(const brc_simulation *s, int64_t e, double 
 brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refinement refine);
 /* Constants of each element, only for several materials. */
 brc_status brc_geometry_materials(brc_simulation *s);
-/* Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */
+/* All ranks. Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */
 brc_status brc_geometry_precondition_blocks(brc_simulation *s, double *out);
 
 /* ---- force.c: one evaluation, either model ---- */

@@ -16,7 +16,7 @@ static void joined_bodies_keep_their_numbers_and_share_walls_and_sets(void **sta
     r[1].body = 1;
     brc_domain *part[2] = {test_build(*state, &r[0]), test_build(*state, &r[1])}, *d;
     const brc_domain *parts[2] = {part[0], part[1]};
-    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, &d), BRC_OK);
+    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, BRC_ALONE, &d), BRC_OK);
     assert_int_equal(brc_domain_check(*state, d), BRC_OK);
     const int64_t n = part[0]->n_elements, f = part[0]->n_free_faces, h = part[0]->n_half_edges;
     assert_int_equal(d->n_elements, n + part[1]->n_elements);
@@ -53,7 +53,7 @@ static void joining_one_body_gives_it_back(void **state)
     const brc_build_request r = test_sphere(300, 0.9);
     brc_domain *a = test_build(*state, &r), *d;
     const brc_domain *parts[1] = {a};
-    assert_int_equal(brc_domain_join(*state, 1, parts, NULL, &d), BRC_OK);
+    assert_int_equal(brc_domain_join(*state, 1, parts, NULL, BRC_ALONE, &d), BRC_OK);
     assert_memory_equal(&d->quality, &a->quality, sizeof a->quality);
     assert_memory_equal(d->vertex, a->vertex, 3 * (size_t)a->vertex_start[a->n_elements] * sizeof(double));
     assert_memory_equal(d->twin, a->twin, (size_t)a->n_half_edges * sizeof(int32_t));
@@ -72,10 +72,10 @@ static void sets_of_one_name_and_two_kinds_are_refused(void **state)
     r.translation[0] = 2.0;
     brc_domain *b = test_build(*state, &r), *d;
     const brc_domain *parts[2] = {a, b};
-    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, &d), BRC_BAD_INPUT);
+    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, BRC_ALONE, &d), BRC_BAD_INPUT);
     assert_null(d);
     test_says(*state, "set 'grip' holds faces in one body and elements in another");
-    assert_int_equal(brc_domain_join(*state, 0, parts, NULL, &d), BRC_BAD_INPUT);
+    assert_int_equal(brc_domain_join(*state, 0, parts, NULL, BRC_ALONE, &d), BRC_BAD_INPUT);
     brc_domain_free(&a);
     brc_domain_free(&b);
 }
@@ -98,7 +98,7 @@ static void grains_are_numbered_through_all_bodies(void **state)
     }
     give_grains(*state, part[0], 3);
     give_grains(*state, part[2], 2);
-    assert_int_equal(brc_domain_join(*state, 3, (const brc_domain *const *)part, NULL, &d), BRC_OK);
+    assert_int_equal(brc_domain_join(*state, 3, (const brc_domain *const *)part, NULL, BRC_ALONE, &d), BRC_OK);
     assert_int_equal(brc_domain_check(*state, d), BRC_OK);
     for (int64_t e = 0; e < d->n_elements; ++e)
         assert_int_equal(d->grain[e], e < 64 ? e % 3 : e < 128 ? 3 : 4 + e % 2);
@@ -115,7 +115,7 @@ static void spheres_are_joined_with_their_radii_and_walls(void **state)
     brc_domain *a = test_spheres(*state, count, 8.0, 0, 1), *b = test_spheres(*state, more, 9.0, 1, 1), *d;
     brc_pose_apply(none, none, up, b);
     const brc_domain *parts[2] = {a, b};
-    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, &d), BRC_OK);
+    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, BRC_ALONE, &d), BRC_OK);
     assert_int_equal(brc_domain_check(*state, d), BRC_OK);
     assert_int_equal(d->element_kind, BRC_ELEMENT_SPHERE);
     assert_int_equal(d->n_elements, 80 + 27);
@@ -142,7 +142,7 @@ static void cells_and_spheres_are_not_joined(void **state)
     r.translation[0] = 10.0;
     brc_domain *a = test_spheres(*state, count, 8.0, 0, 1), *b = test_build(*state, &r), *d;
     const brc_domain *parts[2] = {a, b};
-    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, &d), BRC_BAD_INPUT);
+    assert_int_equal(brc_domain_join(*state, 2, parts, NULL, BRC_ALONE, &d), BRC_BAD_INPUT);
     assert_null(d);
     test_says(*state,
               "body 0 is made of spheres, body 1 of cells, which one domain cannot hold; give `beams` to all bodies");

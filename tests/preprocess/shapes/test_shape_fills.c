@@ -61,7 +61,7 @@ static void every_shape_is_packed_turned_and_put_beside_another(void **state)
         r.translation[0] = 10.0;
         r.body = 1;
         pair[1] = test_build(*state, &r);
-        if (brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, &joined) != BRC_OK)
+        if (brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, BRC_ALONE, &joined) != BRC_OK)
             fail_msg("%s: %s", room.name, brc_context_message(*state));
         if (brc_domain_check(*state, joined) != BRC_OK)
             fail_msg("%s, twice: %s", room.name, brc_context_message(*state));
@@ -86,7 +86,7 @@ static void bodies_that_touch_are_taken_and_those_inside_each_other_are_not(void
         if (k == 3) r.shape.size[0] = r.shape.size[1] = r.shape.size[2] = 0.5;
         memcpy(r.translation, at[k], sizeof r.translation);
         pair[1] = test_build(*state, &r);
-        const brc_status status = brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, &joined);
+        const brc_status status = brc_domain_join(*state, 2, (const brc_domain *const *)pair, NULL, BRC_ALONE, &joined);
         assert_int_equal(status, k < 3 ? BRC_OK : BRC_BAD_INPUT);
         if (k == 3) test_says(*state, "overlap");
         brc_domain_free(&joined);

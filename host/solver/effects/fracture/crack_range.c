@@ -1,4 +1,6 @@
 #include "crack_range.h"
+#include "../../../../preprocess/domain/domain_rows.h"
+#include "../../../base/ranks.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -68,22 +70,23 @@ static void stretch(extent *x, const double *point, double reach)
     }
 }
 
-static extent extent_of(const brc_domain *d, int32_t body)
+/* All ranks. */
+static brc_status extent_of(brc_context *context, const brc_domain *d, int32_t body, extent *x)
 {
-    extent x = {.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
-    const bool corners = d->vertex && !d->here; /* ranks have one body between them */
-    for (int k = 0; d->here && k < 2; ++k)
-        stretch(&x, d->bounds[k], 0);
+    *x = (extent){.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (int64_t e = 0; e < d->n_elements; ++e) {
+        const bool corners = d->vertex && brc_domain_mine(d, e);
         if (d->body[e] != body) continue;
-        x.size += size_of(d, e);
-        ++x.n;
-        if (d->element_kind == BRC_ELEMENT_SPHERE) stretch(&x, d->position + 3 * e, d->radius[e]);
+        x->size += size_of(d, e);
+        ++x->n;
+        if (d->element_kind == BRC_ELEMENT_SPHERE) stretch(x, d->position + 3 * e, d->radius[e]);
         for (int64_t v = corners ? d->vertex_start[e] : 0; corners && v < d->vertex_start[e + 1]; ++v)
-            stretch(&x, d->vertex + 3 * v, 0);
+            stretch(x, d->vertex + 3 * v, 0);
     }
-    x.size /= (double)(x.n > 0 ? x.n : 1);
-    return x;
+    x->size /= (double)(x->n > 0 ? x->n : 1);
+    if (!d->here) return BRC_OK;
+    BRC_TRY(brc_ranks_least(context, 3, x->low));
+    return brc_ranks_most(context, 3, x->high);
 }
 
 /* Box of a crack inside that of its body; false where it lies aslant the axes. */
@@ -155,12 +158,13 @@ static bool softens(const brc_scene *scene, const brc_body *body)
     return false;
 }
 
-void brc_crack_range_tell(brc_simulation *s, const char *elements)
+brc_status brc_crack_range_tell(brc_simulation *s, const char *elements)
 {
     for (int32_t b = 0; b < s->scene->n_bodies; ++b) {
         const brc_body *body = &s->scene->bodies[b];
         if (!softens(s->scene, body)) continue;
-        const extent x = extent_of(s->domain, b);
+        extent x;
+        BRC_TRY(extent_of(s->context, s->domain, b, &x));
         double thinnest = INFINITY;
         int axis = 0;
         for (int c = 0; c < 3 && x.n > 0; ++c)
@@ -174,4 +178,5 @@ void brc_crack_range_tell(brc_simulation *s, const char *elements)
         for (int c = 0; c < body->n_cracks; ++c)
             tell_crack(s, body, &body->cracks[c], &x, elements);
     }
+    return BRC_OK;
 }

@@ -24,7 +24,7 @@ void brc_crack_lengths_free(brc_crack_lengths *lengths);
 double brc_crack_lengths_size(const brc_crack_lengths *lengths, double ratio);
 /* Warn of bodies that soften with few elements through their smallest extent, and of cracks that are there from the
  * start with few along them or ahead of them, by the size wanted. Extents are of boxes around bodies, and cracks count
- * where they lie across one axis. */
-void brc_crack_range_tell(brc_simulation *s, const char *elements);
+ * where they lie across one axis. All ranks. */
+brc_status brc_crack_range_tell(brc_simulation *s, const char *elements);
 
 #endif

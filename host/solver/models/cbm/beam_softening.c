@@ -71,8 +71,7 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
                 least_diameters, (long long)l.n_below[0], (long long)l.n, l.ratio[0],
                 1e3 * brc_crack_lengths_size(&l, least_diameters), 1e3 * l.size);
     brc_crack_lengths_free(&l);
-    brc_crack_range_tell(s, "spheres");
-    return BRC_OK;
+    return brc_crack_range_tell(s, "spheres");
 }
 
 /* Where only that of the virial stress is given: the limit of the weaker of its elements [Pa]. */

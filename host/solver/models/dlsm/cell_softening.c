@@ -138,8 +138,7 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
                 2 * least_cells, (long long)l.n_below[1], (long long)l.n,
                 1e3 * brc_crack_lengths_size(&l, 2 * least_cells), 1e3 * l.size);
     brc_crack_lengths_free(&l);
-    brc_crack_range_tell(s, "cells");
-    return BRC_OK;
+    return brc_crack_range_tell(s, "cells");
 }
 
 static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)

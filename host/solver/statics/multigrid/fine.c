@@ -1,4 +1,5 @@
 #include "fine.h"
+#include "../../../../preprocess/domain/domain_rows.h"
 #include "../../effects/fracture/breaking.h"
 #include "../../effects/loads/loads.h"
 #include <math.h>
@@ -22,12 +23,36 @@ typedef struct bond {
     double n[3], length, axial, shear, bend, twist;
 } bond;
 
+static double area_of(const brc_fine *f, int64_t h)
+{
+    const brc_domain *d = f->s->domain;
+    double square = 0;
+    if (f->area) return f->area[d->bond[h]];
+    for (int c = 0; c < 3; ++c)
+        square += d->area_vector[3 * h + c] * d->area_vector[3 * h + c];
+    return sqrt(square);
+}
+
+/* From where they are. */
+static brc_status bring_areas(brc_simulation *s, brc_fine *f)
+{
+    const brc_domain *d = s->domain;
+    double *area;
+    BRC_TRY(BRC_ALLOCATE(s->context, &area, d->n_bonds, "areas of faces"));
+    for (int64_t b = 0; b < d->n_bonds; ++b) {
+        const int64_t h = d->bond_half_edge[b];
+        if (brc_domain_mine(d, d->neighbour[d->twin[h]])) area[b] = area_of(f, h);
+    }
+    f->area = area;
+    return brc_domain_bonds(s->context, d, area);
+}
+
 static bond bond_of(const brc_fine *f, int64_t e, int64_t h)
 {
     const brc_simulation *s = f->s;
     const brc_domain *d = s->domain;
     const int64_t j = d->neighbour[h];
-    double square = 0, surface = 0;
+    double square = 0;
     bond b;
     for (int c = 0; c < 3; ++c) {
         b.n[c] = d->position[3 * j + c] - d->position[3 * e + c];
@@ -43,9 +68,7 @@ static bond bond_of(const brc_fine *f, int64_t e, int64_t h)
         return b;
     }
     const brc_bond_moduli *own = &f->moduli[s->material_of_element[e]], *other = &f->moduli[s->material_of_element[j]];
-    for (int c = 0; c < 3; ++c)
-        surface += d->area_vector[3 * h + c] * d->area_vector[3 * h + c];
-    const double weight = sqrt(surface) / b.length;
+    const double weight = area_of(f, h) / b.length;
     b.axial = weight * brc_in_series(own->axial, other->axial);
     b.shear = weight * brc_in_series(own->shear, other->shear);
     b.bend = b.twist = weight * square * brc_in_series(own->frame, other->frame);
@@ -220,6 +243,7 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
     BRC_TRY(BRC_ALLOCATE(s->context, &f->moduli, s->scene->n_materials, "levels"));
     for (int32_t m = 0; m < s->scene->n_materials; ++m)
         f->moduli[m] = brc_bond_moduli_of(&s->elastic[m]);
+    if (d->here) BRC_TRY(bring_areas(s, f));
     if (s->fracture) BRC_TRY(brc_fracture_whole_at(s, moment, &f->whole));
     /* what a rigid motion of a piece meets: enough for the rounding of its sums, and so little that no bending is near
      * it */
@@ -245,7 +269,7 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
 
 void brc_fine_free(brc_fine *f)
 {
-    void *all[] = {f->moduli, f->whole, f->ground_element, f->ground, f->spacing};
+    void *all[] = {f->moduli, f->whole, f->area, f->ground_element, f->ground, f->spacing};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
         brc_memory_free(all[i]);
     brc_nodes_free(&f->nodes);

@@ -18,7 +18,8 @@ typedef struct brc_fine {
     const brc_simulation *s;
     brc_bond_moduli *moduli; /* [n_materials] */
     uint8_t *whole;          /* [n_half_edges] 0: broken; NULL: none is */
-    double soft;             /* what the diagonal is raised by, so that rigid motions of pieces meet something [-] */
+    double *area; /* [n_bonds] of faces, where ranks have the domain between them [m^2]; NULL: the domain has all */
+    double soft;  /* what the diagonal is raised by, so that rigid motions of pieces meet something [-] */
     int32_t n_ground;
     int32_t *ground_element; /* [n_ground] ascending */
     brc_block *ground;       /* [n_ground] stiffness of held faces */
@@ -27,8 +28,8 @@ typedef struct brc_fine {
     double *spacing; /* [bodies] mean distance of neighbours [m] */
 } brc_fine;
 
-/* Of the loads of the stage and the bonds as they were at a moment (brc_fracture_moment). Free it after a failure
- * too. */
+/* All ranks. Of the loads of the stage and the bonds as they were at a moment (brc_fracture_moment). Free it after a
+ * failure too. */
 brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *out);
 void brc_fine_free(brc_fine *fine);
 

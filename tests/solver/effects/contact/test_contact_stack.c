@@ -40,7 +40,7 @@ static void open_stack(bench_case *c, int steps)
             .shape = c->scene->bodies[k].shape, .fill = c->scene->bodies[k].fill, .body = k};
         assert_done(c, brc_domain_build(c->context, &request, &block[k]));
     }
-    assert_done(c, brc_domain_join(c->context, BLOCKS, (const brc_domain *const *)block, NULL, &c->domain));
+    assert_done(c, brc_domain_join(c->context, BLOCKS, (const brc_domain *const *)block, NULL, BRC_ALONE, &c->domain));
     for (int k = 0; k < BLOCKS; ++k)
         brc_domain_free(&block[k]);
     const brc_device_request request = {
