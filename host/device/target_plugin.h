@@ -39,4 +39,9 @@ typedef struct brc_target_plugin {
 #define BRC_TARGET_PLUGIN_SYMBOL "brc_target_plugin_get"
 typedef const brc_target_plugin *(*brc_target_plugin_getter)(void);
 
+/* That of a library of one instance beside it (target/target_instance.c); kernels_hash: of the kernel texts it was
+ * built from. */
+#define BRC_TARGET_INSTANCE_SYMBOL "brc_target_instance_get"
+typedef const brc_kernel_instance *(*brc_target_instance_getter)(uint64_t *kernels_hash);
+
 #endif

@@ -26,10 +26,11 @@ foreach(precision RANGE 2)
     foreach(many RANGE 1)
         set(library ${CMAKE_BINARY_DIR}/libbreccia_target_nvptx_${precision_name}_${many}.so)
         add_custom_command(OUTPUT ${library}
-            COMMAND ${BRC_NVPTX_GCC} ${brc_nvptx_flags} -fvisibility=default -DBRC_TARGET -DBRC_INSTANCE=brc_kernels_nvptx_${precision_name}_${many}
+            COMMAND ${BRC_NVPTX_GCC} ${brc_nvptx_flags} -DBRC_TARGET -DBRC_INSTANCE=brc_kernels_nvptx_${precision_name}_${many}
                     -DBRC_LEVEL="nvptx" -DBRC_PRECISION=${precision} -DBRC_LANES=1 -DBRC_SLICE=32 -DBRC_MANY_MATERIALS=${many}
-                    -I${brc_device_generated} -shared ${brc_device_dir}/instance/kernels_instance.c -o ${library}
-            DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/kernel_instance.h ${brc_device_generated}/kernel_list.h ${brc_kernel_texts}
+                    -I${brc_device_generated} -shared ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/target/target_instance.c -o ${library}
+            DEPENDS ${brc_device_dir}/instance/kernels_instance.c ${brc_device_dir}/target/target_instance.c ${brc_device_dir}/target_plugin.h ${brc_device_dir}/kernel_instance.h
+                    ${brc_device_generated}/kernel_list.h ${brc_device_generated}/kernel_hash.h ${brc_kernel_texts}
             COMMENT "Building target kernels for ${BRC_NVPTX_ARCH}, ${precision_name}, many materials ${many}" VERBATIM)
         list(APPEND brc_nvptx_libraries ${library})
     endforeach()

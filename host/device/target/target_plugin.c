@@ -17,16 +17,24 @@ static const brc_kernel_instance *instance(int precision, int many_materials, ch
 {
     static const char *const names[] = {"double", "mixed", "single"};
     Dl_info own;
-    char path[4096], symbol[64];
+    char path[4096];
     const char *const folder = dladdr(&names, &own) && own.dli_fname ? own.dli_fname : "";
     const char *const slash = strrchr(folder, '/');
     snprintf(path, sizeof path, "%.*s%s_%s_%d.so", slash ? (int)(slash + 1 - folder) : 0, folder, BRC_TARGET_APART,
              names[precision], many_materials);
-    snprintf(symbol, sizeof symbol, "brc_kernels_nvptx_%s_%d", names[precision], many_materials);
     void *const library = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    const brc_kernel_instance *const found = library ? dlsym(library, symbol) : NULL;
-    if (!found) snprintf(why, bytes, "%s", dlerror());
-    return found;
+    void *const symbol = library ? dlsym(library, BRC_TARGET_INSTANCE_SYMBOL) : NULL;
+    if (!symbol) {
+        snprintf(why, bytes, "%s", dlerror());
+        return NULL;
+    }
+    brc_target_instance_getter get = NULL;
+    uint64_t hash = 0;
+    memcpy(&get, &symbol, sizeof get); /* C has no conversion from object to function pointers */
+    const brc_kernel_instance *const found = get(&hash);
+    if (hash == BRC_KERNEL_TEXTS_HASH) return found;
+    snprintf(why, bytes, "%s belongs to another version of breccia: build it again", path);
+    return NULL;
 }
 #else
 #define BRC_DECLARE(name) extern const brc_kernel_instance name;
