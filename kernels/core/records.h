@@ -43,13 +43,18 @@ LAW lane_state gather_state_number(GLOBAL const state *restrict p, lane_int row,
 #define LANE_QUADS_LOW(a, b) LANE_SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
 #define LANE_QUADS_HIGH(a, b) LANE_SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
 #endif
+#if LANE_SHUFFLES && !defined(__OPENCL_VERSION__)
+typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
+typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
+#define STORE_SHUFFLES (BRC_PRECISION < 2)
+#else
+#define STORE_SHUFFLES 0
+#endif
 #if STATE_SHUFFLES == 8
 #ifdef __OPENCL_VERSION__
 typedef BRC_JOIN(STATE_NAME, 4) state_quad;
 LAW state_quad state_quad_load(GLOBAL const state *restrict p, brc_size at) { return vload4(0, p + at); }
 #else
-typedef state state_quad __attribute__((vector_size(4 * sizeof(state))));
-typedef state_quad quad_anywhere __attribute__((aligned(4), may_alias));
 LAW state_quad state_quad_load(const state *restrict p, brc_size at) { return *(const quad_anywhere *)(p + at); }
 #endif
 /* p[a .. a + 3], p[b .. b + 3] */
@@ -388,14 +393,35 @@ LAW void lane_store6(GLOBAL coeff *restrict p, int first, lane_sym3 a)
     LANE_EACH(PUT_LANE)
 #undef PUT_LANE
 }
+#if STORE_SHUFFLES
+/* x y z of four rows, side by side. */
+LAW void state_store_rows(state *restrict q, state_quad x, state_quad y, state_quad z)
+{
+    const state_quad xy = LANE_SHUFFLE(x, y, 0, 4, 2, 6), yz = LANE_SHUFFLE(y, z, 1, 5, 3, 7),
+                     zx = LANE_SHUFFLE(z, x, 0, 5, 2, 7);
+    *(quad_anywhere *)q = LANE_SHUFFLE(xy, zx, 0, 1, 4, 5);
+    *(quad_anywhere *)(q + 4) = LANE_SHUFFLE(yz, xy, 0, 1, 6, 7);
+    *(quad_anywhere *)(q + 8) = LANE_SHUFFLE(zx, yz, 2, 3, 6, 7);
+}
+#endif
 LAW void state_store3(GLOBAL state *restrict p, int first, lane_vec3 a)
 {
     GLOBAL state *q = p + (brc_size)first * 3;
+#if STORE_SHUFFLES
+#define QUAD(x, ...) __builtin_convertvector(LANE_SHUFFLE(x, x, __VA_ARGS__), state_quad)
+#define ROWS(at, ...)                                                                                                  \
+    state_store_rows(q + 3 * (at), QUAD(a.x, __VA_ARGS__), QUAD(a.y, __VA_ARGS__), QUAD(a.z, __VA_ARGS__))
+    ROWS(0, 0, 1, 2, 3);
+    if (W > 4) ROWS(W - 4, W - 4, W - 3, W - 2, W - 1);
+#undef ROWS
+#undef QUAD
+#else
 #define PUT_LANE(l)                                                                                                    \
     q[0x##l * 3] = (state)LANE_ITEM(a.x, l), q[0x##l * 3 + 1] = (state)LANE_ITEM(a.y, l),                              \
               q[0x##l * 3 + 2] = (state)LANE_ITEM(a.z, l);
     LANE_EACH(PUT_LANE)
 #undef PUT_LANE
+#endif
 }
 LAW void state_store1(GLOBAL state *restrict p, int first, lane a)
 {

@@ -33,6 +33,12 @@ LAW lane_vec3 lane_vec3_cross(lane_vec3 a, lane_vec3 b)
     return (lane_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/* a - b x c */
+LAW lane_vec3 lane_vec3_less_cross(lane_vec3 a, lane_vec3 b, lane_vec3 c)
+{
+    return (lane_vec3){a.x - b.y * c.z + b.z * c.y, a.y - b.z * c.x + b.x * c.z, a.z - b.x * c.y + b.y * c.x};
+}
+
 LAW lane_vec3 lane_vec3_zero(void) { return (lane_vec3){LANE_ZERO, LANE_ZERO, LANE_ZERO}; }
 LAW lane lane_number(coeff x) { return LANE_ZERO + x; }
 LAW lane_vec3 lane_vec3_where(lane_mask which, lane_vec3 a, lane_vec3 b)

@@ -56,7 +56,7 @@ LAW beam_axes beam_axes_of(cbm_shape shape, lane_vec3 axis0, lane_quat q_i, lane
         lane_vec3_add(shape.bent1, quat_rotate_minus_identity(quat_conjugate(q_i), shape.bent1, 1));
     const lane_vec3 back_j =
         lane_vec3_add(shape.bent2, quat_rotate_minus_identity(quat_conjugate(q_j), shape.bent2, 1));
-    const lane_vec3 across = lane_vec3_scale(REAL(0.5) / shape.inv_length, lane_vec3_add(back_i, back_j)),
+    const lane_vec3 across = lane_vec3_scale(REAL(0.5) * cbm_length(shape), lane_vec3_add(back_i, back_j)),
                     second = lane_vec3_cross(axis0, lean.side);
     return (beam_axes){{c, s * lean.cosine, s * lane_max(sine, -sine)},
                        {s, -c * lean.cosine, -c * lane_max(sine, -sine)},
@@ -92,9 +92,9 @@ LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness sti
     const lane zero = LANE_ZERO, k = stiffness.axial * inv_length0,
                k_m = lean.keeps * REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, more = k - k_m;
     const lane per = more / lane_max(k_m, REAL(1e-15) * k + REAL(1e-30));
-    const lane_vec3 o = {beam_along(x.c.x, x.m1.x, x.m2.x, shape.elongation, x.o1, x.o2),
-                         beam_along(x.c.y, x.m1.y, x.m2.y, shape.elongation, x.o1, x.o2),
-                         beam_along(x.c.z, x.m1.z, x.m2.z, shape.elongation, x.o1, x.o2)};
+    const lane_vec3 o = {beam_along(x.c.x, x.m1.x, x.m2.x, cbm_elongation(shape), x.o1, x.o2),
+                         beam_along(x.c.y, x.m1.y, x.m2.y, cbm_elongation(shape), x.o1, x.o2),
+                         beam_along(x.c.z, x.m1.z, x.m2.z, cbm_elongation(shape), x.o1, x.o2)};
     beam_axis a, p, q;
     lane y = zero;
     for (int turn = 0; turn < 5; ++turn) {
@@ -125,16 +125,16 @@ LAW lane beam_pull(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, l
     const lane k = stiffness.axial * inv_length0,
                k_m = REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, c = lean.along;
     const lane own = lateral * c / (inv_length0 + REAL(1e-30)), stiff = k_m + (k - k_m) * c * c;
-    const lane pull = k_m * (x.c.x * shape.elongation + x.m1.x * x.o1) + (k - k_m) * c * shape.elongation - stiff * own;
+    const lane pull =
+        k_m * (x.c.x * cbm_elongation(shape) + x.m1.x * x.o1) + (k - k_m) * c * cbm_elongation(shape) - stiff * own;
     return pull * LANE_SQRT(k / lane_max(stiff, LANE_ZERO + REAL(1e-30)));
 }
 
 /* The opening l n - l0 (X1 + X2) / 2 of a beam's ends, which no rotation of the body changes [m]. */
 LAW lane_vec3 beam_opening(cbm_shape shape)
 {
-    const lane length0 = REAL(1) / shape.inv_length - shape.elongation;
-    return lane_vec3_add(lane_vec3_scale(shape.elongation, shape.axis),
-                         lane_vec3_scale(REAL(0.5) * length0, lane_vec3_add(shape.bent1, shape.bent2)));
+    return lane_vec3_add(lane_vec3_scale(cbm_elongation(shape), shape.axis),
+                         lane_vec3_scale(REAL(0.5) * shape.length0, lane_vec3_add(shape.bent1, shape.bent2)));
 }
 
 /* keeps of a crack that has come to this opening: none where its ends stand clear of each other, at `clear` of the

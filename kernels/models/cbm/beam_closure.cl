@@ -170,7 +170,7 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, OWN(int) row_start
             if (!closure_any(bears, entry)) continue;
             closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
                                              bend, twist, beam_of, leans, lean);
-            const lane apart = b.shape.elongation * b.inv_length0 - clear;
+            const lane apart = b.shape.strain - clear;
             if (leans) {
                 const beam_carry before = closure_carry(b, own);
                 b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);

@@ -74,10 +74,10 @@ LAW beam_part beam_part_of(cbm_bond bond, lane_vec3 axis0, cbm_own own, lane_qua
 /* |cos| between the axis and the opening. */
 LAW lane beam_cosine(cbm_bond bond)
 {
-    const lane length0 = REAL(1) / bond.shape.inv_length - bond.shape.elongation;
     const lane_vec3 opening = beam_opening(bond.shape);
     const lane along = lane_vec3_dot(opening, bond.shape.axis);
-    return LANE_SQRT(along * along / (lane_vec3_dot(opening, opening) + REAL(1e-30) * length0 * length0));
+    return LANE_SQRT(along * along /
+                     (lane_vec3_dot(opening, opening) + REAL(1e-30) * bond.shape.length0 * bond.shape.length0));
 }
 
 /* Any lane of a slot: open has one of the two states. */

@@ -95,9 +95,7 @@ LAW cbm_end cbm_group_force(int group, OWN(int) row_start, OWN(int) neighbour, O
         const cbm_row row = SPLIT_LOOPS ? next : cbm_row_at(slot, lane0, neighbour, branch, inv_length);
         if (SPLIT_LOOPS) next = cbm_row_at(slot + 1 < last ? slot + 1 : slot, lane0, neighbour, branch, inv_length);
         const cbm_bond bond = cbm_bond_of(row, own, displacement, orientation, axial, bend, twist, beam_of, finite);
-        const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, finite);
-        sum.force = lane_vec3_add(sum.force, end.force);
-        sum.torque = lane_vec3_add(sum.torque, end.torque);
+        sum = cbm_beam_add(sum, bond.shape, bond.inv_length0, bond.stiffness, finite);
     }
     return sum;
 }

@@ -27,11 +27,15 @@ typedef struct {
     lane_vec3 axis;         /* n [-] */
     lane_vec3 own;          /* X1 [-] */
     lane_vec3 bent1, bent2; /* d1, d2 [-] */
-    lane elongation;        /* l - l0 [m] */
-    lane inv_length;        /* 1 / l [1/m] */
+    lane strain;            /* l / l0 - 1 [-] */
+    lane length0;           /* l0, 0 for a missing neighbour [m] */
+    lane inv_length;        /* 1 / l, 0 for a missing neighbour [1/m] */
     lane twist;             /* tau [-] */
     lane_vec3 twist_axis;   /* g [-] */
 } cbm_shape;
+
+LAW lane cbm_elongation(cbm_shape s) { return s.strain * s.length0; }      /* l - l0 [m] */
+LAW lane cbm_length(cbm_shape s) { return s.length0 + cbm_elongation(s); } /* l, 0 for a missing neighbour [m] */
 
 /* branch: X_j - X_i, jump: u_j - u_i [m]; inv_length0: 1/|branch|, 0 for a missing neighbour, which then feels nothing
  * [1/m]. */
@@ -40,37 +44,32 @@ LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec
                                     lane_quat q_j, int finite)
 {
     cbm_shape s;
-    const lane_vec3 e = lane_vec3_scale(inv_length0, branch);
+    const lane_vec3 e = lane_vec3_scale(inv_length0, branch), turned = lane_mat3_mul_vec(turn_i, e); /* X1 - e */
+    lane shortened;                                                                                  /* 1 - l0 / l */
     if (finite) {
-        const lane length0 = lane_vec3_dot(branch, e);
-        const lane_vec3 now = lane_vec3_add(branch, jump);
-        const lane length = LANE_SQRT(lane_vec3_dot(now, now));
-        const lane both = REAL(1) / (length * (length + length0)); /* one division for 1 / l and 1 / (l + l0) */
-        s.elongation = (REAL(2) * lane_vec3_dot(branch, jump) + lane_vec3_dot(jump, jump)) * (length * both);
-        s.inv_length = (length + length0) * both;
-        s.axis = lane_vec3_scale(s.inv_length, now);
+        const lane_vec3 ends = lane_vec3_add(lane_vec3_add(branch, jump), branch);
+        const lane square = inv_length0 * inv_length0 * lane_vec3_dot(jump, ends); /* (l / l0)^2 - 1 */
+        const lane ratio = LANE_SQRT(REAL(1) + square);
+        shortened = square / (ratio + (REAL(1) + square)); /* (ratio^2 - 1) / (ratio + ratio^2) */
+        s.strain = ratio * shortened;
+        s.inv_length = inv_length0 - inv_length0 * shortened;
     } else {
-        s.elongation = lane_vec3_dot(e, jump);
+        s.strain = shortened = inv_length0 * lane_vec3_dot(e, jump);
         s.inv_length = inv_length0;
-        s.axis = e;
     }
-    const lane_vec3 leaned =
-        lane_vec3_scale(s.inv_length, lane_vec3_sub(jump, lane_vec3_scale(s.elongation, e))); /* n - e */
-    const lane_vec3 turned = lane_mat3_mul_vec(turn_i, e);
-    s.bent1 = lane_vec3_sub(leaned, turned);
+    s.length0 = lane_vec3_dot(branch, e);
+    /* n - e = jump / l - (1 - l0 / l) e */
+    s.bent1 = lane_vec3_sub(lane_vec3_scale(s.inv_length, jump), lane_vec3_more(turned, shortened, e));
     s.own = finite ? lane_vec3_add(e, turned) : e;
-    if (finite) { /* the relative rotation w, V in the global frame: tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V x
-                     X1 + V x (V x X1)) = 2 V x g */
-        const lane_quat turn = quat_mul(q_j, quat_conjugate(q_i));
-        s.twist = REAL(2) * lane_vec3_dot(quat_vector(turn), s.own);
-        s.twist_axis = lane_vec3_add(lane_vec3_scale(turn.w, s.own), lane_vec3_cross(quat_vector(turn), s.own));
-        s.bent2 = lane_vec3_sub(s.bent1,
-                                lane_vec3_scale(LANE_ZERO + REAL(2), lane_vec3_cross(quat_vector(turn), s.twist_axis)));
-    } else {
-        s.bent2 = lane_vec3_sub(leaned, quat_rotate_minus_identity(q_j, e, finite));
-        s.twist = REAL(2) * lane_vec3_dot(lane_vec3_sub(quat_vector(q_j), quat_vector(q_i)), e);
-        s.twist_axis = e;
-    }
+    s.axis = finite ? lane_vec3_add(s.own, s.bent1) : e;
+    /* the relative rotation w, V in the global frame: tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V x X1 + V x (V x
+     * X1)) = 2 V x g */
+    const lane_quat turn = quat_mul(q_j, quat_conjugate(q_i));
+    const lane_vec3 v = finite ? quat_vector(turn) : lane_vec3_sub(quat_vector(q_j), quat_vector(q_i)),
+                    twice = lane_vec3_add(v, v);
+    s.twist = lane_vec3_dot(twice, s.own);
+    s.twist_axis = finite ? lane_vec3_add(lane_vec3_scale(turn.w, s.own), lane_vec3_cross(v, s.own)) : s.own;
+    s.bent2 = lane_vec3_less_cross(s.bent1, twice, s.twist_axis);
     return s;
 }
 
@@ -86,15 +85,22 @@ typedef struct {
     lane_vec3 torque; /* about its own centre [N m] */
 } cbm_end;
 
+/* sum and what one more beam does. */
+LAW cbm_end cbm_beam_add(cbm_end sum, cbm_shape s, lane inv_length0, cbm_stiffness k, int finite)
+{
+    const lane bend = k.bend * inv_length0, twist = k.twist * inv_length0 * s.twist,
+               shear = REAL(3) * bend * s.inv_length;
+    const lane_vec3 across = lane_vec3_add(s.bent1, s.bent2), lean = lane_vec3_add(s.bent1, across);
+    lane along = k.axial * s.strain;
+    if (finite) along -= shear * lane_vec3_dot(s.axis, across);
+    return (cbm_end){
+        lane_vec3_more(lane_vec3_more(sum.force, shear, across), along, s.axis),
+        lane_vec3_more(lane_vec3_more(sum.torque, bend, lane_vec3_cross(s.own, lean)), twist, s.twist_axis)};
+}
+
 LAW cbm_end cbm_beam_law(cbm_shape s, lane inv_length0, cbm_stiffness k, int finite)
 {
-    const lane axial = k.axial * inv_length0, bend = k.bend * inv_length0, twist = k.twist * inv_length0;
-    lane_vec3 across = lane_vec3_add(s.bent1, s.bent2);
-    if (finite) across = lane_vec3_sub(across, lane_vec3_scale(lane_vec3_dot(s.axis, across), s.axis));
-    const lane_vec3 f = lane_vec3_add(lane_vec3_scale(axial * s.elongation, s.axis),
-                                      lane_vec3_scale(REAL(3) * bend * s.inv_length, across));
-    const lane_vec3 lean = lane_vec3_scale(bend, lane_vec3_add(lane_vec3_scale(LANE_ZERO + REAL(2), s.bent1), s.bent2));
-    return (cbm_end){f, lane_vec3_add(lane_vec3_cross(s.own, lean), lane_vec3_scale(twist * s.twist, s.twist_axis))};
+    return cbm_beam_add((cbm_end){lane_vec3_zero(), lane_vec3_zero()}, s, inv_length0, k, finite);
 }
 
 /* Sum over beams of x (x) f [J], x the branch now and f the force of the beam on the element (NAH19 eq. 5), with one
@@ -121,8 +127,9 @@ LAW lane cbm_beam_energy(cbm_shape s, lane inv_length0, cbm_stiffness k)
     const lane_vec3 apart = lane_vec3_sub(s.bent1, s.bent2);
     const lane bent = REAL(1.5) * (lane_vec3_dot(s.bent1, s.bent1) + lane_vec3_dot(s.bent2, s.bent2)) -
                       REAL(0.5) * lane_vec3_dot(apart, apart);
+    const lane elongation = cbm_elongation(s);
     return inv_length0 *
-           (REAL(0.5) * (k.axial * s.elongation * s.elongation + k.twist * s.twist * s.twist) + k.bend * bent);
+           (REAL(0.5) * (k.axial * elongation * elongation + k.twist * s.twist * s.twist) + k.bend * bent);
 }
 
 #endif
