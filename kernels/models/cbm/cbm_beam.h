@@ -47,7 +47,7 @@ LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec
     const lane_vec3 e = lane_vec3_scale(inv_length0, branch), turned = lane_mat3_mul_vec(turn_i, e); /* X1 - e */
     lane shortened;                                                                                  /* 1 - l0 / l */
     if (finite) {
-        const lane_vec3 ends = lane_vec3_add(lane_vec3_add(branch, jump), branch);
+        const lane_vec3 ends = lane_vec3_more(jump, LANE_ZERO + REAL(2), branch);
         const lane square = inv_length0 * inv_length0 * lane_vec3_dot(jump, ends); /* (l / l0)^2 - 1 */
         const lane ratio = LANE_SQRT(REAL(1) + square);
         shortened = square / (ratio + (REAL(1) + square)); /* (ratio^2 - 1) / (ratio + ratio^2) */
@@ -95,7 +95,7 @@ LAW cbm_end cbm_beam_add(cbm_end sum, cbm_shape s, lane inv_length0, cbm_stiffne
     if (finite) along -= shear * lane_vec3_dot(s.axis, across);
     return (cbm_end){
         lane_vec3_more(lane_vec3_more(sum.force, shear, across), along, s.axis),
-        lane_vec3_more(lane_vec3_more(sum.torque, bend, lane_vec3_cross(s.own, lean)), twist, s.twist_axis)};
+        lane_vec3_less_cross(lane_vec3_more(sum.torque, twist, s.twist_axis), lane_vec3_scale(bend, lean), s.own)};
 }
 
 LAW cbm_end cbm_beam_law(cbm_shape s, lane inv_length0, cbm_stiffness k, int finite)

@@ -17,9 +17,9 @@ KERNEL void fracture_force(int n_groups, OWN(int) row_start, OWN(int) neighbour,
         for (int slot = row_start[slice]; slot < last; ++slot) {
             const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                               orientation, axial, bend, twist, beam_of, 1);
-            const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
-            sum.force = lane_vec3_add(sum.force, end.force);
-            sum.torque = lane_vec3_add(sum.torque, end.torque);
+            const cbm_end before = {lane_vec3_zero(), sum.torque};
+            const cbm_end end = cbm_beam_add(before, bond.shape, bond.inv_length0, bond.stiffness, 1);
+            sum = (cbm_end){lane_vec3_add(sum.force, end.force), end.torque};
             virial = cbm_add_virial(virial, bond.branch, end.force);
         }
         virial = cbm_virial_of(virial);
