@@ -17,14 +17,14 @@ LAW lane_vec3 quat_rotate_minus_identity(lane_quat q, lane_vec3 a, int finite)
     return lane_vec3_scale(two, lane_vec3_add(lane_vec3_scale(q.w, once), lane_vec3_cross(v, once)));
 }
 
-/* Rotation matrix minus identity [-], without cancellation. */
+/* Rotation matrix minus identity [-], columns R e - e. */
 LAW lane_mat3 quat_matrix_minus_identity(lane_quat q, int finite)
 {
-    const lane x = q.x + q.x, y = q.y + q.y, z = q.z + q.z;
-    if (!finite) return (lane_mat3){LANE_ZERO, -z, y, z, LANE_ZERO, -x, -y, x, LANE_ZERO};
-    const lane xx = -(x * q.x), yy = y * q.y, zz = z * q.z, xy = x * q.y, xz = x * q.z, yz = y * q.z;
-    return (lane_mat3){-yy - zz,     xy - q.w * z, xz + q.w * y, xy + q.w * z, xx - zz,
-                       yz - q.w * x, xz - q.w * y, yz + q.w * x, xx - yy};
+    const lane one = LANE_ZERO + REAL(1), zero = LANE_ZERO;
+    const lane_vec3 x = quat_rotate_minus_identity(q, (lane_vec3){one, zero, zero}, finite);
+    const lane_vec3 y = quat_rotate_minus_identity(q, (lane_vec3){zero, one, zero}, finite);
+    const lane_vec3 z = quat_rotate_minus_identity(q, (lane_vec3){zero, zero, one}, finite);
+    return (lane_mat3){x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
 }
 
 LAW lane_quat quat_conjugate(lane_quat q) { return (lane_quat){q.w, -q.x, -q.y, -q.z}; }
