@@ -57,6 +57,7 @@ brc_status brc_preconditioner_store(brc_preconditioner *p, brc_state_store *stor
 {
     BRC_TRY(brc_store_integer(store, "static.levels_moment", &p->origin.moment));
     BRC_TRY(brc_store_double(store, "static.levels_weight", &p->origin.weight));
+    BRC_TRY(brc_store_double(store, "static.law_weight", &p->origin.law_weight));
     BRC_TRY(brc_store_double(store, "static.pace", &p->pace));
     BRC_TRY(brc_store_flag(store, "static.bonds_broke", &p->bonds_broke));
     return brc_store_flag(store, "static.blocks_alone", &p->blocks_alone);

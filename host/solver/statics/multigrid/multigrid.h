@@ -12,6 +12,7 @@ typedef struct brc_multigrid brc_multigrid;
 typedef struct brc_multigrid_origin {
     int64_t moment;
     double weight; /* of a step on the finest level [-]; 0: nothing was made */
+    double law_weight; /* of a step of the law itself [-]; 0: there is none */
 } brc_multigrid_origin;
 
 /* Elements from which on it is worth its setup. */
