@@ -137,7 +137,8 @@ static brc_status cycle(brc_multigrid *m, int level)
     brc_level *l = &m->level[level], *c = l + 1;
     if (level == m->n_levels - 1) return coarsest(m, level);
     BRC_TRY(brc_level_step(m, level, l->weight, false, l->right, l->x));
-    for (int i = 1; i < m->coarse_steps; ++i) BRC_TRY(step_again(m, level));
+    for (int i = 1; i < m->coarse_steps; ++i)
+        BRC_TRY(step_again(m, level));
     BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
     const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
                             up = {.move = l->x.move, .turn = l->x.turn};
@@ -146,7 +147,8 @@ static brc_status cycle(brc_multigrid *m, int level)
     BRC_TRY(cycle(m, level + 1));
     BRC_TRY(BRC_RUN_ON(m->pass.prolong, l->n, &up, l, {"coarse_move", BRC_BUF(c->x.move)},
                        {"coarse_turn", BRC_BUF(c->x.turn)}));
-    for (int i = 1; i < m->coarse_steps; ++i) BRC_TRY(step_again(m, level));
+    for (int i = 1; i < m->coarse_steps; ++i)
+        BRC_TRY(step_again(m, level));
     return step_again(m, level);
 }
 
@@ -180,7 +182,8 @@ static brc_status finest_cycle(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
     return brc_level_step(m, 0, longer * l->weight, true, l->left, x);
 }
 
-/* Where the law is far from the stand-in, a step of the law itself before and after. */
+/* Where the law is far from the stand-in, a step of the law itself before and after. Where its volume is stiff they
+ * take the place of the longer steps. */
 brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
 {
     const brc_level *l = &m->level[0];

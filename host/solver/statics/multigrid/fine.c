@@ -1,4 +1,5 @@
 #include "fine.h"
+#include "multigrid.h"
 #include "../../../../preprocess/domain/domain_rows.h"
 #include "../../effects/fracture/breaking.h"
 #include "../../effects/loads/loads.h"
@@ -27,12 +28,21 @@ static bool is_soft(const brc_elastic *m)
     return m->lambda < -0.63 * m->mu; /* nu below -0.85 */
 }
 
-/* What coarser levels add to lambda: below zero all of it, without which bending is too stiff; where the volume is
- * stiff as much as helps beside steps of the law. */
+bool brc_multigrid_has_law_steps(const brc_simulation *s)
+{
+    bool any = false;
+    for (int32_t m = 0; m < s->scene->n_materials; ++m)
+        any |= is_stiff(&s->elastic[m]) || is_soft(&s->elastic[m]);
+    return any && !s->model->turns;
+}
+
+/* What coarser levels add to lambda: below zero most of it, without which bending is too stiff (all of it might leave
+ * them without stiffness, since motions of aggregates change volumes in steps); where the volume is stiff as much as
+ * helps beside steps of the law. */
 static double volume_modulus(const brc_elastic *m)
 {
-    static const double most = 3; /* of mu; measured */
-    return is_stiff(m) ? most * m->mu : fmin(m->lambda, 0);
+    static const double part = 0.9, most = 3; /* of lambda; of mu: measured */
+    return is_stiff(m) ? most * m->mu : part * fmin(m->lambda, 0);
 }
 
 /* A bond: unit vector and length of its branch, stiffness along and across it [N/m], of its ends' rotation across and
@@ -276,7 +286,6 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
         f->volume_modulus[m] = volume_modulus(k);
         f->volumes |= f->volume_modulus[m] != 0;
         f->stiff_volume |= is_stiff(k);
-        f->soft_volume |= is_soft(k);
     }
     if (d->here) BRC_TRY(bring_areas(s, f));
     if (s->fracture) BRC_TRY(brc_fracture_whole_at(s, moment, &f->whole));
@@ -304,7 +313,8 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
 
 void brc_fine_free(brc_fine *f)
 {
-    void *all[] = {f->moduli, f->volume_modulus, f->whole, f->area, f->ground_element, f->ground, f->ground_area, f->spacing};
+    void *all[] = {f->moduli,         f->volume_modulus, f->whole,       f->area,
+                   f->ground_element, f->ground,         f->ground_area, f->spacing};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
         brc_memory_free(all[i]);
     brc_nodes_free(&f->nodes);

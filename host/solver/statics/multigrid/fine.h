@@ -19,13 +19,13 @@ typedef struct brc_fine {
     brc_bond_moduli *moduli; /* [n_materials] */
     double *volume_modulus;  /* [n_materials] what coarser levels add to lambda, that springs cannot have [Pa] */
     bool volumes;            /* some do */
-    bool stiff_volume, soft_volume; /* some volume is so much stiffer or softer than springs that steps of the law pay */
+    bool stiff_volume;       /* that of some material is, nearly incompressible */
     uint8_t *whole;          /* [n_half_edges] 0: broken; NULL: none is */
     double *area; /* [n_bonds] of faces, where ranks have the domain between them [m^2]; NULL: the domain has all */
     double soft;  /* what the diagonal is raised by, so that rigid motions of pieces meet something [-] */
     int32_t n_ground;
-    int32_t *ground_element; /* [n_ground] ascending */
-    brc_block *ground;       /* [n_ground] stiffness of held faces */
+    int32_t *ground_element;  /* [n_ground] ascending */
+    brc_block *ground;        /* [n_ground] stiffness of held faces */
     double (*ground_area)[3]; /* [n_ground] their area vectors, in the components that are held [m^2] */
     brc_nodes nodes;
     brc_rows rows;

@@ -352,7 +352,7 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
     BRC_TRY(make_levels(m, &fine, origin->weight));
     m->coarse_steps = fine.volumes ? 3 : 1;
     m->short_cycle = fine.stiff_volume;
-    if (fine.stiff_volume || fine.soft_volume) BRC_TRY(weigh_law(m, origin->law_weight));
+    if (brc_multigrid_has_law_steps(s)) BRC_TRY(weigh_law(m, origin->law_weight));
     origin->weight = m->level[0].weight;
     origin->law_weight = m->law_weight;
     m->report = (brc_multigrid_report){.n_levels = m->n_levels,

@@ -1,6 +1,6 @@
 /* The volumes of cells under the rigid motions of aggregates. A cell's surface is closed, so that its volume changes by
- * sum s.(u_j - u_i) / 2 over the bonds it has: of those within an aggregate by nothing. Held faces
- * stay where they are. */
+ * sum s.(u_j - u_i) / 2 over the bonds it has, less s.u_i over its held faces; bonds within an aggregate add nothing.
+ */
 #include "fine.h"
 #include <math.h>
 #include <string.h>
