@@ -74,6 +74,7 @@ const brc_meaning brc_meanings_of_checkpoints[] = {
     {"parts/*/static.corrections", "-", "corrections of the last static stage"},
     {"parts/*/static.before", "m", "displacement before the last increment; x y z"},
     {"parts/*/static.levels_moment", "-", "steps and events so far when multigrid was made"},
+    {"parts/*/static.law_weight", "-", "weight of a step of the law around the cycle of multigrid; 0: there is none"},
     {"parts/*/static.levels_weight", "-", "weight of a step on the finest level of multigrid; 0: nothing was made"},
     {"parts/*/static.pace", "-", "iterations for each digit of the residual in the first solve with it; 0: none yet"},
     {"parts/*/static.bonds_broke", "-", "1: bonds broke since the preconditioner was made"},

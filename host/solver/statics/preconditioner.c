@@ -53,10 +53,11 @@ brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v)
 }
 
 /* What a resumed stage needs to make the same levels. */
-brc_status brc_preconditioner_store(brc_preconditioner *p, brc_state_store *store)
+brc_status brc_preconditioner_store(const brc_simulation *s, brc_preconditioner *p, brc_state_store *store)
 {
     BRC_TRY(brc_store_integer(store, "static.levels_moment", &p->origin.moment));
     BRC_TRY(brc_store_double(store, "static.levels_weight", &p->origin.weight));
+    if (brc_multigrid_has_law_steps(s)) BRC_TRY(brc_store_double(store, "static.law_weight", &p->origin.law_weight));
     BRC_TRY(brc_store_double(store, "static.pace", &p->pace));
     BRC_TRY(brc_store_flag(store, "static.bonds_broke", &p->bonds_broke));
     return brc_store_flag(store, "static.blocks_alone", &p->blocks_alone);

@@ -101,7 +101,7 @@ brc_status brc_statics_store_stage(brc_simulation *s, brc_state_store *store)
     brc_static_run *run = s->statics->stage;
     if (!run) return BRC_OK;
     BRC_TRY(brc_store_fields(s, store, &(brc_kept_fields){.table = &brc_solve_fields, .owner = &run->vectors}));
-    BRC_TRY(brc_preconditioner_store(&run->vectors.preconditioner, store));
+    BRC_TRY(brc_preconditioner_store(s, &run->vectors.preconditioner, store));
     BRC_TRY(brc_store_flag(store, "static.tangent", &run->vectors.tangent));
     return brc_store_double(store, "static.reference", &run->reference);
 }

@@ -83,7 +83,8 @@ brc_status brc_preconditioner_create(brc_simulation *s, brc_solve_vectors *v);
 brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v);
 /* z = M r, prescribed components zero. rotations: as in brc_conjugate_gradients. */
 brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, bool rotations);
-brc_status brc_preconditioner_store(brc_preconditioner *preconditioner, brc_state_store *store);
+brc_status brc_preconditioner_store(const brc_simulation *s, brc_preconditioner *preconditioner,
+                                    brc_state_store *store);
 /* A solve took so many iterations from a residual to another. */
 void brc_preconditioner_took(brc_solve_vectors *v, int64_t iterations, double from, double to);
 /* Multigrid was not positive, or the residual stands: blocks from here on, with a warning. */

@@ -3,7 +3,25 @@
 #include "../../../base/random.h"
 #include <math.h>
 
-/* Force and torque of the model's own linear law, added to the right side. */
+/* Force of the linear law of cells, added to the right side. */
+static brc_status law_residual(brc_multigrid *m, brc_buffer *x, brc_buffer *right, brc_buffer *out)
+{
+    brc_simulation *s = m->s;
+    BRC_TRY(brc_force_evaluate(s, &(brc_force_request){.displacement = x, .force = out, .homogeneous = true}));
+    return right ? brc_vector_axpy(s, 3 * (int64_t)s->layout->n_rows, 1, right, out) : BRC_OK;
+}
+
+/* x = [x +] weight D^-1 r with the blocks of the law, in components that no load prescribes; way: scratch. */
+static brc_status law_step(brc_multigrid *m, bool add, brc_buffer *r, brc_buffer *way, brc_buffer *x)
+{
+    brc_simulation *s = m->s;
+    if (!add) BRC_TRY(brc_buffer_fill_zero(x));
+    BRC_TRY(brc_vector_blocks(s, m->law_inverse, r, way));
+    BRC_TRY(brc_vector_axpy(s, 3 * (int64_t)s->layout->n_rows, m->law_weight, way, x));
+    return brc_constrain(s, x, NULL);
+}
+
+/* Force and torque of beams, added to the right side. */
 static brc_status own_residual(brc_multigrid *m, brc_unknowns x, brc_unknowns right, brc_unknowns out)
 {
     brc_simulation *s = m->s;
@@ -50,13 +68,14 @@ static brc_status dot(brc_simulation *s, int64_t n, brc_unknowns a, brc_unknowns
 {
     double turn;
     BRC_TRY(brc_vector_dot(s, a.move, b.move, 3 * n, out));
+    if (!a.turn) return BRC_OK;
     BRC_TRY(brc_vector_dot(s, a.turn, b.turn, 3 * n, &turn));
     *out += turn;
     return BRC_OK;
 }
 
 /* Power iteration with quotients of energies, v.A D^-1 A v / v.A v, from noise. */
-brc_status brc_level_stiffest(brc_multigrid *m, int level, double *out)
+brc_status brc_level_stiffest(brc_multigrid *m, int level, bool of_law, double *out)
 {
     enum { ITERATIONS = 12 };
     brc_simulation *s = m->s;
@@ -74,20 +93,30 @@ brc_status brc_level_stiffest(brc_multigrid *m, int level, double *out)
     BRC_TRY(brc_buffer_fill_zero(l->step.turn));
     BRC_TRY(brc_level_step(m, level, 1, false, l->step, l->left)); /* in its free components */
     const int64_t n = 3 * l->n;
+    const brc_unknowns force = {l->x.move, of_law ? NULL : l->x.turn};
     for (int i = 0; i < ITERATIONS && above > 0 && below > 0; ++i) {
         const double scale = 1 / sqrt(i == 0 ? 1 : above);
         BRC_TRY(brc_buffer_fill_zero(l->step.move));
         BRC_TRY(brc_buffer_fill_zero(l->step.turn));
         BRC_TRY(brc_vector_axpy(s, n, -scale, l->left.move, l->step.move));
         BRC_TRY(brc_vector_axpy(s, n, -scale, l->left.turn, l->step.turn));
-        BRC_TRY(brc_level_residual(m, level, l->step, (brc_unknowns){NULL, NULL}, l->x)); /* -A v */
-        BRC_TRY(dot(s, l->n, l->x, l->step, &below));
-        BRC_TRY(brc_level_step(m, level, 1, false, l->x, l->left));
-        BRC_TRY(dot(s, l->n, l->x, l->left, &above));
+        BRC_TRY(of_law ? law_residual(m, l->step.move, NULL, force.move) /* -A v */
+                       : brc_level_residual(m, level, l->step, (brc_unknowns){NULL, NULL}, force));
+        BRC_TRY(dot(s, l->n, force, l->step, &below));
+        BRC_TRY(of_law ? law_step(m, false, force.move, l->right.move, l->left.move)
+                       : brc_level_step(m, level, 1, false, force, l->left));
+        BRC_TRY(dot(s, l->n, force, l->left, &above));
         below = -below;
     }
     *out = below > 0 && isfinite(above / below) ? above / below : 1;
     return BRC_OK;
+}
+
+static brc_status step_again(brc_multigrid *m, int level)
+{
+    brc_level *l = &m->level[level];
+    BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
+    return brc_level_step(m, level, l->weight, true, l->left, l->x);
 }
 
 static brc_status coarsest(brc_multigrid *m, int level)
@@ -97,10 +126,8 @@ static brc_status coarsest(brc_multigrid *m, int level)
     const brc_level_vectors v = {.move = l->x.move, .turn = l->x.turn, .force = l->right.move, .torque = l->right.turn};
     if (m->inverse) return brc_pass_run_on(m->pass.coarsest, l->n, &v, NULL, NULL);
     BRC_TRY(brc_level_step(m, level, l->weight, false, l->right, l->x));
-    for (int i = 1; i < STEPS; ++i) {
-        BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
-        BRC_TRY(brc_level_step(m, level, l->weight, true, l->left, l->x));
-    }
+    for (int i = 1; i < STEPS; ++i)
+        BRC_TRY(step_again(m, level));
     return BRC_OK;
 }
 
@@ -110,6 +137,8 @@ static brc_status cycle(brc_multigrid *m, int level)
     brc_level *l = &m->level[level], *c = l + 1;
     if (level == m->n_levels - 1) return coarsest(m, level);
     BRC_TRY(brc_level_step(m, level, l->weight, false, l->right, l->x));
+    for (int i = 1; i < m->coarse_steps; ++i)
+        BRC_TRY(step_again(m, level));
     BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
     const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
                             up = {.move = l->x.move, .turn = l->x.turn};
@@ -118,21 +147,24 @@ static brc_status cycle(brc_multigrid *m, int level)
     BRC_TRY(cycle(m, level + 1));
     BRC_TRY(BRC_RUN_ON(m->pass.prolong, l->n, &up, l, {"coarse_move", BRC_BUF(c->x.move)},
                        {"coarse_turn", BRC_BUF(c->x.turn)}));
-    BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
-    return brc_level_step(m, level, l->weight, true, l->left, l->x);
+    for (int i = 1; i < m->coarse_steps; ++i)
+        BRC_TRY(step_again(m, level));
+    return step_again(m, level);
 }
 
 /* The same on the finest level, whose P is not stored. With S = 1 - weight D^-1 A, P = S T: what P^T gives of a
  * residual is T^T of the one that another step of that weight leaves, and P likewise. So that step is kept before and
  * after the coarser levels, for no evaluation of A more, and a longer one goes with it. */
-brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
+static brc_status finest_cycle(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
 {
     static const double longer = 1.3; /* over the kept step (docs/notebook/theory.md T6); 1.5 would be 2 / lambda_max */
     brc_level *l = &m->level[0], *c = l + 1;
     const brc_unknowns x = {z.move, z.turn ? z.turn : l->x.turn};
-    BRC_TRY(brc_level_step(m, 0, longer * l->weight, false, r, x));
-    BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
-    BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
+    if (!m->short_cycle) {
+        BRC_TRY(brc_level_step(m, 0, longer * l->weight, false, r, x));
+        BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
+    }
+    BRC_TRY(brc_level_step(m, 0, l->weight, !m->short_cycle, m->short_cycle ? r : l->left, x));
     BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
     if (m->n_levels > 1) {
         const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
@@ -145,6 +177,22 @@ brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
         BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
     }
     BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
+    if (m->short_cycle) return BRC_OK;
     BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
     return brc_level_step(m, 0, longer * l->weight, true, l->left, x);
+}
+
+/* Where the law is far from the stand-in, a step of the law itself before and after. Where its volume is stiff they
+ * take the place of the longer steps. */
+brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
+{
+    const brc_level *l = &m->level[0];
+    const brc_unknowns left = {l->right.move, NULL}, way = {l->step.move, NULL};
+    if (!(m->law_weight > 0)) return finest_cycle(m, r, z);
+    BRC_TRY(law_step(m, false, r.move, way.move, z.move));
+    BRC_TRY(law_residual(m, z.move, r.move, left.move));
+    BRC_TRY(finest_cycle(m, left, way));
+    BRC_TRY(brc_vector_axpy(m->s, 3 * l->n, 1, way.move, z.move));
+    BRC_TRY(law_residual(m, z.move, r.move, left.move));
+    return law_step(m, true, left.move, way.move, z.move);
 }

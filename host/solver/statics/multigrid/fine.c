@@ -1,4 +1,5 @@
 #include "fine.h"
+#include "multigrid.h"
 #include "../../../../preprocess/domain/domain_rows.h"
 #include "../../effects/fracture/breaking.h"
 #include "../../effects/loads/loads.h"
@@ -17,13 +18,40 @@ brc_bond_moduli brc_bond_moduli_of(const brc_elastic *m)
     return (brc_bond_moduli){2 * m->mu + 3 * lambda, 2 * m->mu - 2 * lambda, frame * m->mu};
 }
 
+/* Where the volume is so much stiffer, or softer, that steps of the law itself pay. */
+static bool is_stiff(const brc_elastic *m)
+{
+    return m->lambda > 35 * m->mu; /* nu above 0.486 */
+}
+static bool is_soft(const brc_elastic *m)
+{
+    return m->lambda < -0.63 * m->mu; /* nu below -0.85 */
+}
+
+bool brc_multigrid_has_law_steps(const brc_simulation *s)
+{
+    bool any = false;
+    for (int32_t m = 0; m < s->scene->n_materials; ++m)
+        any |= is_stiff(&s->elastic[m]) || is_soft(&s->elastic[m]);
+    return any && !s->model->turns;
+}
+
+/* What coarser levels add to lambda: below zero most of it, without which bending is too stiff (all of it might leave
+ * them without stiffness, since motions of aggregates change volumes in steps); where the volume is stiff as much as
+ * helps beside steps of the law. */
+static double volume_modulus(const brc_elastic *m)
+{
+    static const double part = 0.9, most = 3; /* of lambda; of mu: measured */
+    return is_stiff(m) ? most * m->mu : part * fmin(m->lambda, 0);
+}
+
 /* A bond: unit vector and length of its branch, stiffness along and across it [N/m], of its ends' rotation across and
  * along it [N m]. */
 typedef struct bond {
     double n[3], length, axial, shear, bend, twist;
 } bond;
 
-static double area_of(const brc_fine *f, int64_t h)
+double brc_fine_area(const brc_fine *f, int64_t h)
 {
     const brc_domain *d = f->s->domain;
     double square = 0;
@@ -41,7 +69,7 @@ static brc_status bring_areas(brc_simulation *s, brc_fine *f)
     BRC_TRY(BRC_ALLOCATE(s->context, &area, d->n_bonds, "areas of faces"));
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b];
-        if (brc_domain_mine(d, d->neighbour[d->twin[h]])) area[b] = area_of(f, h);
+        if (brc_domain_mine(d, d->neighbour[d->twin[h]])) area[b] = brc_fine_area(f, h);
     }
     f->area = area;
     return brc_domain_bonds(s->context, d, area);
@@ -68,7 +96,7 @@ static bond bond_of(const brc_fine *f, int64_t e, int64_t h)
         return b;
     }
     const brc_bond_moduli *own = &f->moduli[s->material_of_element[e]], *other = &f->moduli[s->material_of_element[j]];
-    const double weight = area_of(f, h) / b.length;
+    const double weight = brc_fine_area(f, h) / b.length;
     b.axial = weight * brc_in_series(own->axial, other->axial);
     b.shear = weight * brc_in_series(own->shear, other->shear);
     b.bend = b.twist = weight * square * brc_in_series(own->frame, other->frame);
@@ -103,6 +131,19 @@ static void add_bond(const bond *b, brc_block own, brc_block other)
     }
 }
 
+int32_t brc_fine_ground(const brc_fine *f, int64_t e)
+{
+    for (int32_t low = 0, high = f->n_ground - 1; low <= high;) {
+        const int32_t middle = (low + high) / 2;
+        if (f->ground_element[middle] == e) return middle;
+        if (f->ground_element[middle] < e)
+            low = middle + 1;
+        else
+            high = middle - 1;
+    }
+    return -1;
+}
+
 static int32_t fine_row(const void *of, int64_t e, int32_t *column, brc_block *block)
 {
     const brc_fine *f = of;
@@ -122,18 +163,9 @@ static int32_t fine_row(const void *of, int64_t e, int32_t *column, brc_block *b
     if (!block) return n;
     for (int c = 0; c < 6; ++c)
         block[0][7 * c] *= 1 + f->soft;
-    for (int32_t low = 0, high = f->n_ground - 1; low <= high;) { /* of held faces */
-        const int32_t middle = (low + high) / 2;
-        if (f->ground_element[middle] == e) {
-            for (int c = 0; c < 36; ++c)
-                block[0][c] += f->ground[middle][c];
-            break;
-        }
-        if (f->ground_element[middle] < e)
-            low = middle + 1;
-        else
-            high = middle - 1;
-    }
+    const int32_t held = brc_fine_ground(f, e);
+    for (int c = 0; held >= 0 && c < 36; ++c)
+        block[0][c] += f->ground[held][c];
     return n;
 }
 
@@ -182,7 +214,11 @@ static void mark_ground(void *self, const brc_prescribed *one)
 static void add_ground(void *self, const brc_prescribed *one)
 {
     const ground_list *g = self;
-    if (one->face >= 0) add_face(g->f, one->face, one->motion, g->f->ground[g->at[one->element]]);
+    if (one->face < 0) return;
+    add_face(g->f, one->face, one->motion, g->f->ground[g->at[one->element]]);
+    for (int c = 0; c < 3; ++c)
+        if (one->motion >> c & 1)
+            g->f->ground_area[g->at[one->element]][c] += g->f->s->domain->free_area_vector[3 * (int64_t)one->face + c];
 }
 
 static brc_status collect_ground(brc_simulation *s, brc_fine *f)
@@ -194,6 +230,7 @@ static brc_status collect_ground(brc_simulation *s, brc_fine *f)
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &g.at, s->domain->n_elements, "held elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &f->ground_element, n, "held elements"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &f->ground, n, "held elements"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &f->ground_area, n, "held elements"));
     brc_loads_each_prescribed(s, mark_ground, &g);
     for (int64_t e = 0; e < s->domain->n_elements; ++e) {
         if (!g.at[e]) continue;
@@ -241,8 +278,15 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
     const brc_domain *d = s->domain;
     *f = (brc_fine){.s = s};
     BRC_TRY(BRC_ALLOCATE(s->context, &f->moduli, s->scene->n_materials, "levels"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &f->volume_modulus, s->scene->n_materials, "levels"));
     for (int32_t m = 0; m < s->scene->n_materials; ++m)
         f->moduli[m] = brc_bond_moduli_of(&s->elastic[m]);
+    for (int32_t m = 0; m < s->scene->n_materials && !s->model->turns; ++m) {
+        const brc_elastic *k = &s->elastic[m];
+        f->volume_modulus[m] = volume_modulus(k);
+        f->volumes |= f->volume_modulus[m] != 0;
+        f->stiff_volume |= is_stiff(k);
+    }
     if (d->here) BRC_TRY(bring_areas(s, f));
     if (s->fracture) BRC_TRY(brc_fracture_whole_at(s, moment, &f->whole));
     /* what a rigid motion of a piece meets: enough for the rounding of its sums, and so little that no bending is near
@@ -269,7 +313,8 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
 
 void brc_fine_free(brc_fine *f)
 {
-    void *all[] = {f->moduli, f->whole, f->area, f->ground_element, f->ground, f->spacing};
+    void *all[] = {f->moduli,         f->volume_modulus, f->whole,       f->area,
+                   f->ground_element, f->ground,         f->ground_area, f->spacing};
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i)
         brc_memory_free(all[i]);
     brc_nodes_free(&f->nodes);

@@ -17,12 +17,16 @@ brc_bond_moduli brc_bond_moduli_of(const brc_elastic *elastic);
 typedef struct brc_fine {
     const brc_simulation *s;
     brc_bond_moduli *moduli; /* [n_materials] */
+    double *volume_modulus;  /* [n_materials] what coarser levels add to lambda, that springs cannot have [Pa] */
+    bool volumes;            /* some do */
+    bool stiff_volume;       /* that of some material is, nearly incompressible */
     uint8_t *whole;          /* [n_half_edges] 0: broken; NULL: none is */
     double *area; /* [n_bonds] of faces, where ranks have the domain between them [m^2]; NULL: the domain has all */
     double soft;  /* what the diagonal is raised by, so that rigid motions of pieces meet something [-] */
     int32_t n_ground;
-    int32_t *ground_element; /* [n_ground] ascending */
-    brc_block *ground;       /* [n_ground] stiffness of held faces */
+    int32_t *ground_element;  /* [n_ground] ascending */
+    brc_block *ground;        /* [n_ground] stiffness of held faces */
+    double (*ground_area)[3]; /* [n_ground] their area vectors, in the components that are held [m^2] */
     brc_nodes nodes;
     brc_rows rows;
     double *spacing; /* [bodies] mean distance of neighbours [m] */
@@ -32,5 +36,12 @@ typedef struct brc_fine {
  * failure too. */
 brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *out);
 void brc_fine_free(brc_fine *fine);
+/* Place of an element among those with held faces, -1: it has none. */
+int32_t brc_fine_ground(const brc_fine *fine, int64_t element);
+/* Area of the face of a half-edge [m^2]. */
+double brc_fine_area(const brc_fine *fine, int64_t half_edge);
+/* Add to the matrix of the first aggregates what their rigid motions do to the volumes of cells. */
+brc_status brc_fine_add_volumes(const brc_fine *fine, const int32_t *aggregate, const brc_nodes *coarse,
+                                brc_stored_rows *rows);
 
 #endif

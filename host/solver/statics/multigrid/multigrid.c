@@ -219,8 +219,24 @@ static brc_status weigh(brc_multigrid *m, int level, double given)
     double stiffest;
     m->level[level].weight = given;
     if (given > 0) return BRC_OK;
-    BRC_TRY(brc_level_stiffest(m, level, &stiffest));
+    BRC_TRY(brc_level_stiffest(m, level, false, &stiffest));
     m->level[level].weight = 4 / (3 * above * stiffest);
+    return BRC_OK;
+}
+
+/* The same of a step of the law. */
+static brc_status weigh_law(brc_multigrid *m, double given)
+{
+    static const double part = 1.5, above = 1.05;
+    double stiffest;
+    BRC_LOCAL(m->s->context, 6 * (int64_t)m->s->layout->n_rows, double, blocks, "multigrid");
+    BRC_TRY(brc_multigrid_list(m->s, &brc_multigrid_law_fields, 0, m));
+    BRC_TRY(m->s->model->statics->blocks(m->s, blocks));
+    BRC_TRY(brc_upload_state(m->s, m->law_inverse, blocks, 6 * (int64_t)m->s->layout->n_rows));
+    m->law_weight = given > 0 ? given : 1;
+    if (given > 0) return BRC_OK;
+    BRC_TRY(brc_level_stiffest(m, 0, true, &stiffest));
+    m->law_weight = part / (above * stiffest);
     return BRC_OK;
 }
 
@@ -270,6 +286,7 @@ static brc_status make_next(brc_multigrid *m, const brc_fine *f, made_level *mad
     BRC_TRY_OR(cleanup, brc_prolongation_create(s->context, &made->rows, &made->nodes, aggregate, &next.nodes,
                                                 m->level[level].weight, (const double(*)[21])made->inverse, &p));
     BRC_TRY_OR(cleanup, brc_coarse_rows(s->context, &made->rows, &p, &next.stored));
+    if (level == 0 && f->volumes) BRC_TRY_OR(cleanup, brc_fine_add_volumes(f, aggregate, &next.nodes, &next.stored));
     if (brc_memory_held() > m->most_held) m->most_held = brc_memory_held();
     BRC_TRY_OR(cleanup, level == 0 ? upload_aggregates(m, &made->nodes, aggregate, &next.nodes)
                                    : upload_prolongation(s, &m->level[level], &p));
@@ -333,7 +350,11 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
     if (!(origin->weight > 0) && s->fracture) origin->moment = brc_fracture_moment(s);
     BRC_TRY(brc_fine_create(s, origin->moment, &fine));
     BRC_TRY(make_levels(m, &fine, origin->weight));
+    m->coarse_steps = fine.volumes ? 3 : 1;
+    m->short_cycle = fine.stiff_volume;
+    if (brc_multigrid_has_law_steps(s)) BRC_TRY(weigh_law(m, origin->law_weight));
     origin->weight = m->level[0].weight;
+    origin->law_weight = m->law_weight;
     m->report = (brc_multigrid_report){.n_levels = m->n_levels,
                                        .device_bytes = brc_device_bytes(s->device) - on_device,
                                        .host_bytes = m->most_held - held,

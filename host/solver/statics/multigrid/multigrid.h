@@ -11,12 +11,16 @@ typedef struct brc_multigrid brc_multigrid;
  * (brc_fracture_moment) counted as whole. */
 typedef struct brc_multigrid_origin {
     int64_t moment;
-    double weight; /* of a step on the finest level [-]; 0: nothing was made */
+    double weight;     /* of a step on the finest level [-]; 0: nothing was made */
+    double law_weight; /* of a step of the law itself [-]; 0: there is none */
 } brc_multigrid_origin;
 
 /* Elements from which on it is worth its setup. */
 enum { BRC_MULTIGRID_LEAST = 500 };
 
+/* Steps of the law itself before and after the cycle: where the volume of some cells is so much stiffer or softer than
+ * springs can be that they pay. */
+bool brc_multigrid_has_law_steps(const brc_simulation *s);
 /* Of the current stage's supports, and of the bonds as they are (origin->weight 0; what they are goes there) or as they
  * were. BRC_NO_MEMORY, BRC_DEVICE_FAILED. */
 brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin, brc_multigrid **out);

@@ -17,6 +17,9 @@ static const brc_field_row ground_rows[] = {
     {"element", brc_each_listed, 1, BRC_FIELD_INT, NULL, AT(ground_element), WORDS, "-", BRC_NOT_KEPT},
     {"block", brc_each_listed, 36, BRC_FIELD_STATE, NULL, AT(ground), WORDS, "N/m", BRC_NOT_KEPT}};
 BRC_FIELD_TABLE(brc_multigrid_ground_fields, "multigrid: held faces", BRC_LIFE_GROWS, NULL, ground_rows);
+static const brc_field_row law_rows[] = {
+    {"law_inverse", each_finest, 6, BRC_FIELD_STATE, NULL, AT(law_inverse), WORDS, "m/N", BRC_NOT_KEPT}};
+BRC_FIELD_TABLE(brc_multigrid_law_fields, "multigrid: steps of the law", BRC_LIFE_GROWS, NULL, law_rows);
 static const brc_field_row coarsest_rows[] = {
     {"inverse", brc_each_listed, 36, BRC_FIELD_STATE, NULL, AT(inverse), WORDS, "m/N", BRC_NOT_KEPT}};
 BRC_FIELD_TABLE(brc_multigrid_coarsest_fields, "multigrid: coarsest level", BRC_LIFE_GROWS, NULL, coarsest_rows);
@@ -78,5 +81,6 @@ void brc_multigrid_fields_free(brc_multigrid *m)
             brc_fields_free(of_level[k], &m->level[i]);
     brc_fields_free(&brc_multigrid_fields, m);
     brc_fields_free(&brc_multigrid_ground_fields, m);
+    brc_fields_free(&brc_multigrid_law_fields, m);
     brc_fields_free(&brc_multigrid_coarsest_fields, m);
 }

@@ -34,6 +34,10 @@ struct brc_multigrid {
     brc_level_passes pass;
     brc_buffer *vector, *number; /* of bonds, borrowed: branches and areas where cells turn, else areas and S/L */
     bool by_branch;
+    double law_weight;       /* of a step of the law before and after the cycle [-]; 0: there is none */
+    brc_buffer *law_inverse; /* [n_rows][6] its blocks */
+    bool short_cycle;        /* without the longer steps, where steps of the law take their place */
+    int coarse_steps;        /* before and after the levels below a coarser one */
     int n_levels;
     brc_level level[BRC_MOST_LEVELS];
     brc_buffer *inverse;    /* of the coarsest level's matrix; NULL: steps alone */
@@ -48,13 +52,14 @@ struct brc_multigrid {
 
 /* x = [x +] weight D^-1 r. */
 brc_status brc_level_step(brc_multigrid *m, int level, double weight, bool add, brc_unknowns r, brc_unknowns x);
-/* Largest eigenvalue of D^-1 A, from below, to some percent. */
-brc_status brc_level_stiffest(brc_multigrid *m, int level, double *out);
+/* Largest eigenvalue of D^-1 A, from below, to some percent; of_law: of the law on the finest level. */
+brc_status brc_level_stiffest(brc_multigrid *m, int level, bool of_law, double *out);
 
 /* ---- multigrid_fields.c ---- */
-extern const brc_field_table brc_multigrid_fields, brc_multigrid_ground_fields, brc_multigrid_coarsest_fields,
-    brc_multigrid_finest_fields, brc_multigrid_aggregate_fields, brc_multigrid_level_fields,
-    brc_multigrid_matrix_fields, brc_multigrid_transfer_fields, brc_multigrid_start_fields, brc_multigrid_coarse_fields;
+extern const brc_field_table brc_multigrid_fields, brc_multigrid_ground_fields, brc_multigrid_law_fields,
+    brc_multigrid_coarsest_fields, brc_multigrid_finest_fields, brc_multigrid_aggregate_fields,
+    brc_multigrid_level_fields, brc_multigrid_matrix_fields, brc_multigrid_transfer_fields, brc_multigrid_start_fields,
+    brc_multigrid_coarse_fields;
 /* Room for a table of n things. */
 brc_status brc_multigrid_list(brc_simulation *s, const brc_field_table *table, int64_t n, void *owner);
 void brc_multigrid_fields_free(brc_multigrid *m);
