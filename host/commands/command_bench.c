@@ -3,6 +3,7 @@
 #include "bench/bench_options.h"
 #include "bench/bench_peers.h"
 #include "bench/bench_ranks.h"
+#include "bench/bench_rest.h"
 #include "bench/bench_statics.h"
 #include "../../bench/contact_cost.h"
 #include "../../bench/effects.h"
@@ -397,10 +398,11 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
     if (strcmp(arguments->positional[0], "sectors") == 0) return run_sectors(session, arguments);
     if (strcmp(arguments->positional[0], "launches") == 0) return run_launches(session, arguments);
     if (strcmp(arguments->positional[0], "ranks") == 0) return brc_bench_ranks(session, arguments);
+    if (strcmp(arguments->positional[0], "rest") == 0) return brc_bench_rest(session, arguments);
     if (strcmp(arguments->positional[0], "throughput") != 0)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "breccia bench: no bench '%s'; this version has: throughput, accuracy, contact, effects, "
-                        "statics, launches, sectors, ranks, peers",
+                        "statics, launches, sectors, ranks, rest, peers",
                         arguments->positional[0]);
     BRC_TRY(brc_bench_refuse_options(context, arguments, "throughput", sizeof others / sizeof *others, others));
     const char *given_folder = brc_arguments_value(arguments, "output");
@@ -453,7 +455,7 @@ static brc_status run(const brc_session *session, const brc_arguments *arguments
 
 const brc_command brc_command_bench = {
     .name = "bench",
-    .operands = "throughput|accuracy|contact|effects|statics|launches|sectors|ranks|peers",
+    .operands = "throughput|accuracy|contact|effects|statics|launches|sectors|ranks|rest|peers",
     .least = 1,
     .most = 1,
     .summary = "measure speed (bond updates per second, fraction of the copy bandwidth), or what accuracy, contact or "
@@ -472,6 +474,7 @@ const brc_command brc_command_bench = {
         "precision). "
         "sectors: what gathers cost the memory of a GPU, counted from neighbour lists (one size). "
         "ranks: what several ranks cost; --problems surface,exchange,step. "
+        "rest: a bar struck at one end, all elements over those that the wave has reached (default 1e5). "
         "effects: fracture and others as multiples of the elastic step of a cube (one size, device, precision, number "
         "of threads). "
         "peers: the same packing in breccia and in YADE and LAMMPS, where they are on PATH (one number of threads).",

@@ -48,6 +48,9 @@ static void print_phases(const brc_run_results *results)
             comma = ",";
         }
     printf("; %.4g s for 1000 steps\n", 1000 * all / (double)results->steps);
+    if (results->at_rest >= 1e-3)
+        printf("at rest: %.1f %% of the elements' steps were left out, as nothing had reached them\n",
+               100 * results->at_rest);
 }
 
 static brc_status run(const brc_session *session, const brc_arguments *arguments)

@@ -77,6 +77,7 @@ static brc_status take_results(brc_context *context, const run *now, brc_run_res
         out->steps_s = brc_simulation_step_seconds(assembly->part[0]);
         for (int phase = 0; phase < BRC_N_PHASES; ++phase)
             out->phase_s[phase] = brc_assembly_phase_seconds(assembly, (brc_step_phase)phase);
+        out->at_rest = brc_assembly_at_rest(assembly);
         out->time_step = brc_assembly_time_step(assembly);
     }
     out->output_s = now->recorder ? brc_recorder_seconds(now->recorder) : 0;

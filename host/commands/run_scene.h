@@ -54,6 +54,7 @@ typedef struct brc_run_results {
     int64_t n_elements, n_bonds, steps, device_bytes;
     double build_s, setup_s, steps_s, output_s, total_s;
     double phase_s[BRC_N_PHASES]; /* of the steps (phases.h) */
+    double at_rest;               /* share of the elements' steps that were left out (solver/core/awake.h) [-] */
     brc_time_step time_step;      /* of the last dynamic stage */
     brc_ledger ledger;
 } brc_run_results;

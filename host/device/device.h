@@ -165,6 +165,12 @@ brc_status brc_kernel_launch(brc_kernel *kernel, int64_t n_items, int n_args, co
 #define BRC_LAUNCH(kernel, n_items, ...)                                                                               \
     brc_kernel_launch((kernel), (n_items), (int)(sizeof((brc_arg[]){__VA_ARGS__}) / sizeof(brc_arg)),                  \
                       (brc_arg[]){__VA_ARGS__})
+/* Launches over all groups or rows of elements, from here on: over these groups of W alone (n, ascending, borrowed
+ * until the next call). NULL: over all. Only on the cpu of one rank; elsewhere, and of kernels without FOR_EACH_GROUP
+ * and FOR_EACH_ROW (portable.h), launches stay whole. */
+void brc_device_choose_groups(brc_device *device, int32_t n, const int32_t *groups);
+/* Whether it can. */
+bool brc_device_chooses_groups(const brc_device *device);
 /* Wait for everything enqueued so far; reports device errors. */
 brc_status brc_device_wait(brc_device *device);
 

@@ -279,8 +279,11 @@ static brc_status cpu_launch(brc_kernel *kernel, int64_t first, int64_t n_items,
     const int before = omp_get_max_threads();
     if (before != n_threads) omp_set_num_threads(n_threads);
     if (first > 0) *inside->instance->first = (int)first;
+    *inside->instance->chosen = (int *)(uintptr_t)kernel->device->chosen;
+    *inside->instance->n_chosen = kernel->device->n_chosen;
     const brc_status status = brc_instance_call(kernel, n_args, args);
     if (first > 0) *inside->instance->first = 0;
+    *inside->instance->chosen = NULL;
     if (before != n_threads) omp_set_num_threads(before);
     return status;
 }

@@ -41,6 +41,8 @@ struct brc_device {
     int64_t bytes;             /* held in buffers */
     brc_device_counts counts;  /* but for launches, which kernels count */
     void *dummy;               /* memory of 64 bytes for arguments that are NULL; not counted */
+    int32_t n_chosen;          /* groups that launches go over */
+    const int32_t *chosen;     /* [n_chosen]; NULL: all */
     brc_kernel *kernels;       /* found so far, a list */
     brc_buffer *buffers;       /* held now, a list, the youngest first */
     struct brc_shares *shares; /* of several ranks; NULL: there is one (shares.h) */

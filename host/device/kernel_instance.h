@@ -15,6 +15,8 @@ typedef struct brc_kernel_instance {
     int lanes;          /* W */
     int slice;          /* C */
     int *first;         /* item that launches begin with: 0 but while a rank does its own (shares.h) */
+    int **chosen;       /* groups that FOR_EACH_GROUP and FOR_EACH_ROW go over ... */
+    int *n_chosen;      /* ... and how many; NULL: all */
     int n;
     const brc_kernel_entry *entries; /* [n] */
 } brc_kernel_instance;

@@ -138,6 +138,7 @@ static void add_cost(brc_json *json, const brc_summary *s)
     brc_json_number(json, "steps_s", steps);
     brc_json_number(json, "output_s", s->output_s);
     brc_json_number(json, "bond_updates_per_s", rate);
+    brc_json_number(json, "at_rest", s->assembly ? brc_assembly_at_rest(s->assembly) : NAN);
     brc_json_begin_object(json, "phases");
     for (int phase = BRC_PHASE_NONE + 1; phase < BRC_N_PHASES; ++phase) {
         char key[32];

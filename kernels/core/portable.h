@@ -9,7 +9,7 @@
  *   BRC_EXACT           defined where a product and a sum must not be contracted into one rounding (OpenCL; C by flag)
  *
  * Vocabulary (docs/reference/portable.md): KERNEL, GLOBAL, OWN, GATHER, PUT, UPDATE, FLAG, SPREAD, SCATTER, LAW,
- * ROUTINE, FOR_EACH_ITEM, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
+ * ROUTINE, FOR_EACH_ITEM, FOR_EACH_GROUP, FOR_LANES, coeff, state, lane, lane_state, lane_int, REAL. */
 #ifndef BRC_KERNELS_PORTABLE_H
 #define BRC_KERNELS_PORTABLE_H
 
@@ -66,7 +66,8 @@ typedef ulong brc_size;
 #define FOR_EACH_ITEM(i, n)                                                                                            \
     const int i = (int)get_global_id(0);                                                                               \
     if (i < (n))
-#define FOR_EACH_ROW(e, n) FOR_EACH_ITEM(e, n)
+#define FOR_EACH_ROW FOR_EACH_ITEM
+#define FOR_EACH_GROUP FOR_EACH_ITEM
 #define FOR_LANES(l) for (int l = 0; l < W; ++l)
 #define FOR_LANES_ANY(l, any) FOR_LANES(l)
 #if W == 1
@@ -111,20 +112,19 @@ typedef BRC_JOIN(int, BRC_LANES) lane_int;
 typedef size_t brc_size;
 #define STORE_SAME(place, value) __atomic_store_n((place), (value), __ATOMIC_RELAXED)
 #define BRC_PRAGMA(x) _Pragma(#x)
-/* Single numbers of W things in arrays, where laws of single numbers (svec.h) are worth more than lanes of their
- * own. */
+/* Single numbers of W things in arrays, where laws of single numbers (svec.h) are worth more than lanes of theirs. */
 #define FOR_LANES(l) BRC_PRAGMA(omp simd) for (int l = 0; l < W; ++l)
 #define FOR_LANES_ANY(l, any) BRC_PRAGMA(omp simd reduction(| : any)) for (int l = 0; l < W; ++l)
-static int brc_first_item __attribute__((unused)); /* kernel_instance.h */
+__attribute__((unused)) static int brc_first_item, brc_n_chosen, *brc_chosen; /* kernel_instance.h; NULL: all */
 #ifdef BRC_TARGET
 #define FOR_EACH_ITEM(i, n)                                                                                            \
     BRC_PRAGMA(omp target teams distribute parallel for defaultmap(firstprivate : pointer))                            \
     for (int i = 0; i < (n); ++i)
-#define FOR_EACH_ROW(e, n) FOR_EACH_ITEM(e, n)
+#define FOR_EACH_ROW FOR_EACH_ITEM
+#define FOR_EACH_GROUP FOR_EACH_ITEM
 #else
-/* Numbers too small for their exponent cost a hundred times an ordinary one on a CPU, and the tail ahead of every wave
- * front is made of them: each thread sets them to zero (as -cl-denorms-are-zero does in OpenCL) and puts its mode
- * back. */
+/* Numbers too small for their exponent cost a hundred times an ordinary one on a CPU, and tails ahead of waves are made
+ * of them: each thread sets them to zero (as -cl-denorms-are-zero does in OpenCL) and puts its mode back. */
 #if defined(__x86_64__)
 #define BRC_FLOAT_MODE() __builtin_ia32_stmxcsr()
 #define BRC_SET_FLOAT_MODE(mode) __builtin_ia32_ldmxcsr(mode)
@@ -134,21 +134,23 @@ static int brc_first_item __attribute__((unused)); /* kernel_instance.h */
 #define BRC_SET_FLOAT_MODE(mode) ((void)(mode))
 #define BRC_FLUSHED(mode) (mode)
 #endif
-#define FOR_EACH_ITEM(i, n)                                                                                            \
+#define BRC_FOR_EACH(i, from, to)                                                                                      \
     BRC_PRAGMA(omp parallel)                                                                                           \
     for (unsigned brc_mode = BRC_FLOAT_MODE(), brc_pass = 0; brc_pass < 2; ++brc_pass)                                 \
         if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
             BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
-    for (int i = brc_first_item; i < (n); ++i)
+    for (int i = from; i < (to); ++i)
+#define FOR_EACH_ITEM(i, n) BRC_FOR_EACH(i, brc_first_item, n)
+/* The same over groups of elements: all n, or those that the launch chooses (kernel_instance.h). */
+#define BRC_CHOSEN(g, from, n)                                                                                         \
+    BRC_FOR_EACH(brc_turn, from, brc_chosen ? brc_n_chosen : (n))                                                      \
+    for (int g = brc_chosen ? brc_chosen[brc_turn] : brc_turn, brc_once = 1; brc_once; brc_once = 0)
+#define FOR_EACH_GROUP(g, n) BRC_CHOSEN(g, brc_first_item, n)
 /* The same over rows of elements, n and the first of which are multiples of W: the W rows of a group become vectors,
  * and no row rounds otherwise than another wherever threads and ranks part them. */
 #define FOR_EACH_ROW(e, n)                                                                                             \
-    BRC_PRAGMA(omp parallel)                                                                                           \
-    for (unsigned brc_mode = BRC_FLOAT_MODE(), brc_pass = 0; brc_pass < 2; ++brc_pass)                                 \
-        if (BRC_SET_FLOAT_MODE(brc_pass ? brc_mode : BRC_FLUSHED(brc_mode)), !brc_pass)                                \
-            BRC_PRAGMA(omp for schedule(static) nowait)                                                                \
-    for (int brc_group = brc_first_item / W; brc_group < (n) / W; ++brc_group) BRC_PRAGMA(omp simd)                    \
-    for (int e = brc_group * W; e < brc_group * W + W; ++e)
+    BRC_CHOSEN(brc_group, brc_first_item / W, (n) / W)                                                                 \
+    BRC_PRAGMA(omp simd) for (int e = brc_group * W; e < brc_group * W + W; ++e)
 #endif
 #if BRC_PRECISION == 0
 #define SQRT(x) __builtin_sqrt(x)
@@ -277,8 +279,7 @@ LAW int brc_lane_some(lane_mask which)
 #define SCATTER(type) GLOBAL type *restrict
 
 /* Ask for a row entry `ahead` slots further on: rows are read once, in order, and the hardware's own prefetch stops at
- * every page of 4 KiB (measured in bench/results/notes/performance.md). GPUs hide the wait by their many work-items.
- * What is used soon goes into every cache; what is used later into the second: the first has few places that wait. */
+ * every page of 4 KiB. What is used soon goes into every cache, what is used later into the second. */
 #if !defined(__OPENCL_VERSION__) && W > 1
 #define ROWS_AHEAD (256 / W)
 #define GATHERS_AHEAD 2
@@ -292,8 +293,7 @@ LAW int brc_lane_some(lane_mask which)
 
 /* Registers bound a GPU: loops over bonds that hold much are taken apart there, and what a loop only reads or only what
  * follows it needs is put aside, in the local memory of the group (ASIDE(name, n): room for n numbers of each
- * work-item, in front of the items of a kernel). `volatile`, since a compiler would keep it in registers all the same.
- * On a CPU rows are read once and nothing is put aside. BRC_GROUP: work-items a group at most (OpenCL). */
+ * work-item, in front of the items of a kernel; `volatile`, or it stays in registers). BRC_GROUP: most of a group. */
 #if defined(__OPENCL_VERSION__) && W == 1
 #define SPLIT_LOOPS 1
 typedef volatile __local coeff *aside;

@@ -15,15 +15,18 @@ LAW void orientation_turn(UPDATE(state) q, state hx, state hy, state hz)
 }
 
 /* Rotation: w += kick T / I [rad/s], then q <- exp(turn/2) q with turn = drift w_new + extra T / I [rad]; extra is
- * (phi - 1) dt^2 for Tchamwa-Wielgosz, else 0. inertia: mean moment of inertia of each cell [kg m^2]. */
-KERNEL void advance_rotation(int n_rows, state kick, state drift, state extra, OWN(state) inertia, OWN(state) torque,
-                             UPDATE(state) spin, UPDATE(state) orientation)
+ * (phi - 1) dt^2 for Tchamwa-Wielgosz, else 0. inertia: mean moment of inertia of each cell [kg m^2]. still: as in
+ * motion.cl [rad/s]. */
+KERNEL void advance_rotation(int n_rows, state kick, state drift, state extra, state still, OWN(state) inertia,
+                             OWN(state) torque, UPDATE(state) spin, UPDATE(state) orientation)
 {
     FOR_EACH_ROW(e, n_rows) {
         state half_turn[3];
         for (int c = 0; c < 3; ++c) {
-            const state a = torque[(brc_size)e * 3 + c] / inertia[e];
-            const state w = spin[(brc_size)e * 3 + c] + kick * a;
+            const state was = spin[(brc_size)e * 3 + c], push = torque[(brc_size)e * 3 + c] / inertia[e];
+            const state now = was + kick * push;
+            const int rests = stays_at_rest(was, now, still);
+            const state a = rests ? STATE(0) : push, w = rests ? was : now;
             spin[(brc_size)e * 3 + c] = w;
             half_turn[c] = STATE(0.5) * (drift * w + extra * a);
         }

@@ -364,6 +364,12 @@ double brc_simulation_step_seconds(const brc_simulation *s)
     return 2;
 }
 
+brc_rest_account brc_simulation_at_rest(const brc_simulation *s)
+{
+    (void)s;
+    return (brc_rest_account){.left_out = 1, .all = 4};
+}
+
 double brc_simulation_phase_seconds(const brc_simulation *s, brc_step_phase phase)
 {
     (void)s;

@@ -62,6 +62,7 @@ static brc_status pause(void *self, brc_simulation *simulation, brc_pause why)
     if (p->first_step == 0) {                /* its batch touched every page for the first time */
         if (!(p->begin > 0)) p->begin = now; /* taken up in the middle of a stage, which therefore did not begin here */
         p->first_step = step;
+        p->first_rest = brc_simulation_at_rest(simulation);
         p->first_s = now;
         p->first_frames_s = p->stage_frames_s;
         p->prediction.host_bytes = brc_memory_peak(); /* with what the first frame and the samples took */
@@ -69,8 +70,10 @@ static brc_status pause(void *self, brc_simulation *simulation, brc_pause why)
     }
     const int64_t total = brc_simulation_planned_steps(simulation, stage, brc_simulation_time_step(simulation).value);
     if (now - p->begin < watched_s && (double)step < watched_part * (double)total) return BRC_OK;
-    const double pace = (now - p->first_s - (p->stage_frames_s - p->first_frames_s)) / (double)(step - p->first_step);
-    p->expected = now - p->begin + pace * (double)(total - step) +
+    const double seen = (now - p->first_s - (p->stage_frames_s - p->first_frames_s)) / (double)(step - p->first_step),
+                 pace = brc_rest_whole_pace(seen, p->first_rest, brc_simulation_at_rest(simulation)),
+                 left = (double)(total - step);
+    p->expected = now - p->begin + pace * (left - brc_rest_spared(simulation, left)) +
                   frames_left_s(p, scene, stage, total, brc_simulation_time_step(simulation).value);
     p->prediction.after_steps = step;
     if (p->expected > 60)

@@ -7,12 +7,14 @@
 #include "price_curves.h"
 #include "price_error.h"
 #include "../setup.h"
+#include "../../solver/effects/rest.h"
 #include <stdio.h>
 
 typedef struct brc_price {
     brc_context *context;
     brc_prediction prediction;
     double begin, first_s;                 /* of the stage: clock at its start, and at its first pause */
+    brc_rest_account first_rest;           /* at the first pause */
     int64_t first_step;                    /* steps at the first pause; 0: there was none */
     double expected;                       /* seconds of the stage; 0: not predicted yet */
     double frame_begin, frame_s;           /* mean of the frames so far */

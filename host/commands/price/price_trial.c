@@ -63,7 +63,7 @@ static double worst_growth(const brc_scene *scene)
 static void tell_dynamic(FILE *details, const brc_scene *scene, const brc_setup *setup, const brc_stage *stage,
                          const brc_trial_stage *t, double slower, double done, sums *total)
 {
-    const double growth = worst_growth(scene), unbroken = t->pace_s * (double)t->planned,
+    const double growth = worst_growth(scene), unbroken = t->pace_s * ((double)t->planned - t->spared),
                  fixed = t->enter_s + t->warm_s, output = output_of(t);
     const double factor = t->cut && slower > 1 ? fmin(slower, growth) : 1,
                  part = t->cut && brc_trial_may_end_early(stage) && done > 0 ? fmin(done, 1) : 1;
@@ -84,6 +84,9 @@ static void tell_dynamic(FILE *details, const brc_scene *scene, const brc_setup 
             stage->name, (long long)t->planned, t->pace_s, (double)brc_setup_n_bonds(setup) / t->pace_s,
             (long long)t->samples_planned, t->sample_s, (long long)t->frames_planned, t->frame_s, seconds,
             t->cut ? "" : " (run to its end)");
+    if (t->spared > 0)
+        fprintf(details, "stage %s: elements that nothing has reached are left out: as much as %.3g steps\n",
+                stage->name, t->spared);
     if (t->launches > 0)
         fprintf(details,
                 "stage %s: %.4g launches and %.3g waits for the device in a step, samples and frames included; its "

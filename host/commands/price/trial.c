@@ -1,6 +1,7 @@
 /* The run itself, cut short. Two observers stand around the recorder, so that what it does is timed apart from the
  * steps. */
 #include "trial.h"
+#include "../../solver/effects/rest.h"
 #include "pace.h"
 #include "planned_output.h"
 #include "../scratch.h"
@@ -43,6 +44,7 @@ typedef struct watch {
     double budget_s;
     int64_t state_bytes;             /* of a checkpoint where a stage was cut that would leave one at its end */
     int64_t device_first;            /* bytes at the first pause */
+    brc_rest_account rest_first;     /* the same */
     brc_device_counts counted_first; /* at the first pause of the stage */
 } watch;
 
@@ -178,13 +180,16 @@ static brc_status paused(void *self, brc_simulation *simulation, brc_pause why)
         w->first = now;
         w->first_step = step;
         w->counted_first = counted(w);
+        w->rest_first = brc_simulation_at_rest(simulation);
         w->first_output_s = w->output_s;
         w->now->warm_s = now - w->begin - w->output_s;
     } else {
         const brc_device_counts all = counted(w);
         w->now->launches = (double)(all.launches - w->counted_first.launches) / (double)(step - w->first_step);
         w->now->waits = (double)(all.waits - w->counted_first.waits) / (double)(step - w->first_step);
-        w->now->pace_s = (now - w->first - (w->output_s - w->first_output_s)) / (double)(step - w->first_step);
+        const double seen = (now - w->first - (w->output_s - w->first_output_s)) / (double)(step - w->first_step);
+        w->now->pace_s = brc_rest_whole_pace(seen, w->rest_first, brc_simulation_at_rest(simulation));
+        w->now->spared = brc_rest_spared(simulation, (double)(w->now->planned - step));
         if (now - w->last < short_batch_s && w->budget.batch < LARGEST_BATCH) w->budget.batch *= 2;
     }
     w->last = now;

@@ -17,6 +17,7 @@ typedef struct brc_trial_stage {
     double enter_s; /* from the end of the last stage to the first step of this one */
     double warm_s;  /* until the first pause: pages are touched, kernels built; static: all but the iterations */
     double pace_s;  /* of a step or event after that, without output; static and modes: of an iteration */
+    double spared;  /* dynamic: of the planned steps, as many are left out at rest as whole ones are worth (rest.h) */
     double sample_s, frame_s; /* of one of them */
     double launches, waits;   /* of a step or event, with what samples and frames ask of the devices */
     double floor_bytes;       /* dynamic: the least that a step moves, of all parts */

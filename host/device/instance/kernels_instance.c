@@ -15,6 +15,8 @@ const brc_kernel_instance BRC_INSTANCE = {
     .lanes = BRC_LANES,
     .slice = BRC_SLICE,
     .first = &brc_first_item,
+    .chosen = &brc_chosen,
+    .n_chosen = &brc_n_chosen,
     .n = (int)(sizeof entries / sizeof entries[0]),
     .entries = entries,
 };

@@ -7,7 +7,7 @@
 #include "../h5.h"
 #include "../h5_read.h"
 
-#define BRC_CHECKPOINT_FORMAT_VERSION 6
+#define BRC_CHECKPOINT_FORMAT_VERSION 7
 
 /* The scene as it was read, without what it says about checkpoints: YAML, freed by brc_memory_free. */
 brc_status brc_checkpoint_scene(brc_context *context, const brc_scene *scene, char **yaml);

@@ -2,6 +2,7 @@
 #ifndef BRC_SOLVER_CORE_INTERNAL_H
 #define BRC_SOLVER_CORE_INTERNAL_H
 
+#include "awake.h"
 #include "rings.h"
 
 /* Numbers of the scene that kernels ask for by name; those of one material where there is one (kernels gather those of
@@ -20,6 +21,15 @@ typedef struct brc_hook_list {
     int n;
     const brc_hooked *at[BRC_MOST_EFFECTS];
 } brc_hook_list;
+
+/* What passes go over (awake.h). */
+typedef struct brc_awake {
+    int32_t n;
+    const int32_t *groups; /* [n], borrowed; NULL: all */
+    bool only;             /* what is done now goes over these alone */
+    int rings;
+    brc_rest_account account;
+} brc_awake;
 
 struct brc_rings {
     brc_pass *spread, *seed, *count_pass, *tops, *list_pass, *take_back, *forget, *replace, *replace_turns, *delta,
@@ -54,6 +64,8 @@ struct brc_core {
     brc_buffer *moved, *lost_numerical, *lost_damping;           /* only with these effects */
     brc_buffer *elastic_energy, *stabilisation_energy, *kinetic; /* [n_rows] scratch of the ledger */
     brc_buffer *partial;                                         /* block sums */
+
+    brc_awake awake;
 
     int n_effects; /* of this run (hooks.c) */
     const brc_effect *effect[BRC_MOST_EFFECTS];

@@ -63,6 +63,13 @@ void **brc_effect_own(brc_simulation *s, const brc_effect *effect)
     return &s->core->own[k];
 }
 
+bool brc_effect_is_in(const brc_simulation *s, const brc_effect *effect)
+{
+    for (int k = 0; k < s->core->n_effects; ++k)
+        if (s->core->effect[k] == effect) return true;
+    return false;
+}
+
 const brc_effect *brc_effect_at(const brc_simulation *s, int k)
 {
     return k < s->core->n_effects ? s->core->effect[k] : NULL;

@@ -23,4 +23,11 @@ const char *brc_phase_name(brc_step_phase phase);
 /* Seconds in a phase so far; 0 for BRC_PHASE_NONE. */
 double brc_simulation_phase_seconds(const brc_simulation *simulation, brc_step_phase phase);
 
+/* Steps of groups of elements, of this run of the program [-]: those that were left out, as nothing had reached them
+ * (awake.h), and all there were; both 0 where nobody counts. */
+typedef struct brc_rest_account {
+    double left_out, all;
+} brc_rest_account;
+brc_rest_account brc_simulation_at_rest(const brc_simulation *simulation);
+
 #endif

@@ -242,7 +242,7 @@ enum { MOST_GIVEN = 6 };
 brc_status brc_pass_over(brc_simulation *s, const brc_pass *whole, const brc_pass *listed, const brc_ring_list *list,
                          int ring, const brc_force_request *request, const brc_given *given)
 {
-    if (whole && brc_pass_is_whole(s, list, ring)) return brc_pass_run_on(whole, s->n_groups, request, NULL, given);
+    if (whole && brc_pass_is_whole(s, list, ring)) return brc_pass_run_awake(s, whole, s->n_groups, request, given);
     const int32_t n = list->n[ring], lanes = brc_device_lanes(s->device);
     brc_given all[MOST_GIVEN + 3] = {{"n", BRC_INT(n)}, {"list", BRC_BUF(list->upto[ring])}};
     for (int k = 0; given && given[k].name && k < MOST_GIVEN; ++k)

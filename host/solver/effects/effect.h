@@ -26,6 +26,7 @@ typedef enum brc_hook {
     BRC_HOOK_ADVANCE,   /* bodies of an effect's own move (kick, drift, extra, numerical) */
     BRC_HOOK_DRAG,      /* velocities are slowed, in the middle of the motion of a step (dt) */
     BRC_HOOK_MOVED,     /* elements are at the end of the step */
+    BRC_HOOK_PAIRS,     /* surfaces were looked for: a list of pairs was made, maybe amid an evaluation */
     BRC_HOOK_FORCE,     /* forces are added (request) */
     BRC_HOOK_CONSTRAIN, /* what is prescribed is zeroed in vectors (vector, rotations) */
     BRC_HOOK_BOOK,      /* forces are whole: reactions, and the work of loads (request) */
@@ -139,6 +140,8 @@ const brc_effect *const *brc_effects(int *n);
 /* What an effect keeps of its own in a run; NULL at first. */
 void **brc_effect_own(struct brc_simulation *s, const brc_effect *effect);
 enum { BRC_MOST_EFFECTS = 32 };
+/* Whether a run has it. */
+bool brc_effect_is_in(const struct brc_simulation *s, const brc_effect *effect);
 /* The k-th effect of a run; NULL: there are no more. */
 const brc_effect *brc_effect_at(const struct brc_simulation *s, int k);
 /* Whether something is hooked in here that is due. */

@@ -1,4 +1,5 @@
 /* Sums over the parts of a scene. With one part every function is that of its simulation. */
+#include "../core/awake.h"
 #include "assembly.h"
 #include <math.h>
 #include <stdio.h>
@@ -119,6 +120,17 @@ double brc_assembly_phase_seconds(const brc_assembly *a, brc_step_phase phase)
     for (int32_t k = 0; k < a->n; ++k)
         sum += brc_simulation_phase_seconds(a->part[k], phase);
     return sum;
+}
+
+double brc_assembly_at_rest(const brc_assembly *a)
+{
+    brc_rest_account sum = {0};
+    for (int32_t k = 0; k < a->n; ++k) {
+        const brc_rest_account part = brc_simulation_at_rest(a->part[k]);
+        sum.left_out += part.left_out;
+        sum.all += part.all;
+    }
+    return sum.all > 0 ? sum.left_out / sum.all : 0;
 }
 
 double brc_assembly_setup_seconds(const brc_assembly *a)

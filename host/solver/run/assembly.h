@@ -35,6 +35,8 @@ brc_time_step brc_assembly_time_step(const brc_assembly *assembly);
 double brc_assembly_mode(const brc_assembly *assembly, int32_t index);
 /* Wall seconds in a phase of the steps, of all parts. */
 double brc_assembly_phase_seconds(const brc_assembly *assembly, brc_step_phase phase);
+/* Share of the elements' steps, of this run of the program, that were left out at rest (core/awake.h) [-]. */
+double brc_assembly_at_rest(const brc_assembly *assembly);
 /* Wall seconds of setting up all parts. */
 double brc_assembly_setup_seconds(const brc_assembly *assembly);
 /* Device bytes of all parts. */

@@ -1,4 +1,5 @@
 /* Explicit time stepping: velocity Verlet and Tchamwa-Wielgosz. */
+#include "../core/awake.h"
 #include "look.h"
 #include "motion.h"
 #include "run_internal.h"
@@ -26,7 +27,10 @@ static brc_status close_step(brc_simulation *s, double dt)
     BRC_TRY(brc_hook_run(s, BRC_HOOK_PLACE, &(brc_occasion){.t = s->run->time}));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_MOVED, NULL));
     const brc_step_phase before = brc_phase_within(s, BRC_PHASE_FORCES);
-    BRC_TRY(brc_force_of_state(s, BRC_BOOK_WORK));
+    const bool outer = brc_awake_only(s, true);
+    const brc_status status = brc_force_of_state(s, BRC_BOOK_WORK);
+    brc_awake_only(s, outer);
+    BRC_TRY(status);
     brc_phase_within(s, before);
     return BRC_OK;
 }
@@ -47,15 +51,11 @@ static brc_status verlet_step(brc_simulation *s, double dt, double kick)
 
 static brc_status tchamwa_step(brc_simulation *s, double phi, double dt)
 {
-    const int32_t n = s->layout->n_rows;
     BRC_TRY(open_step(s, dt));
-    BRC_TRY(BRC_RUN(s->run->pass.advance_tchamwa, n, {"dt", BRC_STATE(dt)}, {"phi", BRC_STATE(phi)},
-                    {"lost", BRC_BUF(brc_lost_numerical_of(s))}));
-    /* turn = dt w_old + phi dt^2 a = dt w_new + (phi - 1) dt^2 a */
-    BRC_TRY(brc_motion_turn(s, &(brc_occasion){.kick = dt, .drift = dt, .extra = (phi - 1) * dt, .numerical = true}));
+    BRC_TRY(brc_motion_tchamwa(s, phi, dt));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_DRAG, &(brc_occasion){.dt = dt}));
     BRC_TRY(close_step(s, dt));
-    BRC_TRY(BRC_RUN(s->run->pass.numerical_close, n, {"lost", BRC_BUF(brc_lost_numerical_of(s))}));
+    BRC_TRY(BRC_RUN(s->run->pass.numerical_close, s->layout->n_rows, {"lost", BRC_BUF(brc_lost_numerical_of(s))}));
     /* velocities are at whole steps already */
     return brc_hook_run(s, BRC_HOOK_BREAK, &(brc_occasion){.half_kick = 0});
 }

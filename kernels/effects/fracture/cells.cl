@@ -21,7 +21,8 @@ KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) 
                         GATHER(coeff) plane, UPDATE(int) look, OWN(coeff) limit, PUT(int) mark, PUT(coeff) measure,
                         FLAG(int) touched, PUT(state) n_marked)
 {
-    FOR_EACH_ITEM(group, n_groups) {
+    FOR_EACH_GROUP(group, n_groups)
+    {
         const int first = group * W;
         int marked = 0;
         if (share < REAL(1) || share > REAL(1) || look[group]) {

@@ -228,7 +228,8 @@ KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager
                            GATHER(coeff) record, GATHER(coeff) stress_bound, OWN(coeff) limit_margin, OWN(coeff) weight,
                            PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
-    FOR_EACH_ITEM(group, n_groups) {
+    FOR_EACH_GROUP(group, n_groups)
+    {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
         lane sum = lane_load(stress_bound, (brc_size)first);
         for (int slot = row_start[slice]; level > 0 && slot < last;

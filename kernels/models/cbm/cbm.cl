@@ -107,7 +107,8 @@ KERNEL void cbm_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour,
                            coeff bend, coeff twist, GATHER(coeff) beam_of, int finite, PUT(state) force,
                            PUT(state) torque)
 {
-    FOR_EACH_ITEM(group, n_groups) {
+    FOR_EACH_GROUP(group, n_groups)
+    {
         cbm_ask_ahead(group, displacement, orientation, ahead);
         const cbm_end sum = finite ? cbm_group_force(group, row_start, neighbour, branch, inv_length, displacement,
                                                      orientation, axial, bend, twist, beam_of, 1)

@@ -7,7 +7,8 @@ KERNEL void fracture_force(int n_groups, OWN(int) row_start, OWN(int) neighbour,
                            coeff inv_shear, int drucker_prager, coeff slope, PUT(state) force, PUT(state) torque,
                            UPDATE(coeff) record, PUT(coeff) stress_bound)
 {
-    FOR_EACH_ITEM(group, n_groups) {
+    FOR_EACH_GROUP(group, n_groups)
+    {
         cbm_ask_ahead(group, displacement, orientation, ahead);
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
         const cbm_own own = cbm_own_of(group, displacement, orientation, 1);

@@ -13,7 +13,8 @@ KERNEL void dlsm_gradient_held(int n_items, OWN(int) row_start, OWN(int) neighbo
                                OWN(int) face_start, OWN(coeff) face_area, OWN(coeff) arm, OWN(coeff) held,
                                OWN(state) value, UPDATE(coeff) gradient, PUT(coeff) held_gradient)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = members_of_group(item, row_start);
         dlsm_gradient_of(who, neighbour, ahead, area, displacement, inv_shape, gradient);
         FOR_HELD_LANES(l, h)
@@ -33,7 +34,8 @@ KERNEL void dlsm_stress_held(int n_items, OWN(int) row_start, OWN(int) neighbour
                              UPDATE(state) reaction, UPDATE(state) last, UPDATE(state) last_reaction,
                              UPDATE(state) work)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = members_of_group(item, row_start);
         dlsm_stress_of(who, neighbour, ahead, area, offset, gradient, inv_volume, boundary, held_gradient, face_loads,
                        lambda_one, mu_one, material, finite, stress);
@@ -63,7 +65,8 @@ KERNEL void dlsm_force_held(int n_items, OWN(int) row_start, OWN(int) neighbour,
                             coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, OWN(int) boundary, OWN(int) held_of,
                             OWN(int) face_start, OWN(state) reaction, UPDATE(state) force)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = members_of_group(item, row_start);
         dlsm_force_of(who, neighbour, ahead, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus,
                       force);
@@ -78,7 +81,8 @@ KERNEL void cells_force_held(int n_items, OWN(int) row_start, OWN(int) neighbour
                              OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, OWN(int) boundary, OWN(int) held_of,
                              OWN(int) face_start, OWN(state) reaction, UPDATE(state) force, PUT(int) look)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = members_of_group(item, row_start);
         cells_force_of(who, neighbour, ahead, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus,
                        gradient, stress, plane, limit, force, look);

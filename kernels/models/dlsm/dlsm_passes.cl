@@ -4,7 +4,8 @@
 KERNEL void PASS(dlsm_gradient)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
                                 GATHER(state) displacement, OWN(coeff) inv_shape, PUT(coeff) gradient)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         dlsm_gradient_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, displacement, inv_shape, gradient);
     }
 }
@@ -15,7 +16,8 @@ KERNEL void PASS(dlsm_stress)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour
                               OWN(coeff) held_gradient, int face_loads, coeff lambda_one, coeff mu_one,
                               OWN(coeff) material, int finite, PUT(coeff) stress)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         dlsm_stress_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, offset, gradient, inv_volume, boundary,
                        held_gradient, face_loads, lambda_one, mu_one, material, finite, stress);
     }
@@ -31,7 +33,8 @@ KERNEL void PASS(dlsm_flux_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighb
                                  PUT(coeff) bond_part)
 {
     ASIDE(room, ASIDE_FLUX);
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = PASS_MEMBERS(item, row_start);
         members_later(who, gradient, 9, ahead), members_later(who, stress, 9, ahead);
         members_store9(who, flux,
@@ -46,7 +49,8 @@ KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour,
                              OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
                              coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, PUT(state) force)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         dlsm_force_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, ratio, displacement, flux, bond_part,
                       k_one, one_plus_tau, modulus, force);
     }
@@ -59,7 +63,8 @@ KERNEL void PASS(cells_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour
                               coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient,
                               OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         cells_force_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, ratio, displacement, flux, bond_part,
                        k_one, one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
     }
@@ -73,7 +78,8 @@ KERNEL void PASS(dlsm_energy)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour
                               coeff one_plus_tau, OWN(coeff) material, GATHER(coeff) modulus, GATHER(coeff) ell_of,
                               int finite, PUT(state) elastic, PUT(state) stabilisation)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = PASS_MEMBERS(item, row_start);
         members_store1(who, elastic,
                        dlsm_elastic_of(who, neighbour, area, offset, gradient, inv_volume, boundary, held_gradient,

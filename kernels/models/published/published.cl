@@ -25,7 +25,8 @@ KERNEL void published_strain_pass(int n_groups, OWN(int) row_start, OWN(int) nei
                                   OWN(coeff) branch, OWN(coeff) area, int area_weights, GATHER(state) displacement,
                                   OWN(state) orientation, OWN(coeff) inv_shape, int finite, PUT(coeff) strain)
 {
-    FOR_EACH_ITEM(group, n_groups) {
+    FOR_EACH_GROUP(group, n_groups)
+    {
         const members who = members_of_group(group, row_start);
         members_states_later(who, displacement, 3, ahead);
         const lane_mat3 fitted = published_fit(who, neighbour, branch, area, area_weights, displacement, inv_shape);

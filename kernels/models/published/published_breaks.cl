@@ -11,7 +11,8 @@ KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(i
                             OWN(coeff) bond_ratio, PUT(int) mark, PUT(coeff) measure, FLAG(int) touched,
                             PUT(state) n_marked)
 {
-    FOR_EACH_ITEM(group, n_groups) {
+    FOR_EACH_GROUP(group, n_groups)
+    {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
         int look = 0, marked = 0;
         for (int l = 0; l < W; ++l) look |= !(bond_ratio[group * W + l] < REAL(0.99999) * share);

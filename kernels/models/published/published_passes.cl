@@ -7,7 +7,8 @@ KERNEL void PASS(published_breaking_strain)(PASS_ITEMS, OWN(int) row_start, OWN(
                                             GATHER(state) displacement, OWN(state) orientation, OWN(coeff) inv_shape,
                                             OWN(coeff) spanned, int finite, PUT(coeff) strain)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = PASS_MEMBERS(item, row_start);
         members_states_later(who, displacement, 3, ahead);
         const lane_mat3 fitted = published_fit(who, neighbour, branch, area, area_weights, displacement, inv_shape);
@@ -27,7 +28,8 @@ KERNEL void PASS(published_force_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) 
                                        coeff young_one, coeff rotation_factor, coeff couple, GATHER(coeff) lame_of,
                                        int finite, PUT(state) force, PUT(state) torque)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = PASS_MEMBERS(item, row_start);
         members_states_later(who, displacement, 3, ahead), members_states_later(who, orientation, 4, ahead);
         members_later(who, strain, 6, ahead);
@@ -56,7 +58,8 @@ KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(i
                                            GATHER(coeff) lame_of, OWN(coeff) limit, PUT(state) force, PUT(state) torque,
                                            PUT(coeff) bond_ratio)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         const members who = PASS_MEMBERS(item, row_start);
         members_states_later(who, displacement, 3, ahead), members_states_later(who, orientation, 4, ahead);
         members_later(who, strain, 6, ahead);
@@ -84,7 +87,8 @@ KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(i
 KERNEL void PASS(published_energy)(PASS_ITEMS, OWN(coeff) strain, OWN(state) volume, coeff lambda_one, coeff mu_one,
                                    OWN(coeff) lame_of, PUT(state) elastic)
 {
-    FOR_EACH_ITEM(item, n_items) {
+    FOR_EACH_GROUP(item, n_items)
+    {
         for (int l = 0; l < W; ++l) {
             const int e = PASS_ELEMENT(item, l);
             elastic[e] = published_energy_of(e, strain, volume, lambda_one, mu_one, lame_of);

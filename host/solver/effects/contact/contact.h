@@ -58,6 +58,9 @@ bool brc_contact_is_due(const brc_simulation *s);
  * number of lists that were made is another one. */
 brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched);
 int64_t brc_contact_lists(const brc_simulation *s);
+/* Pairs listed now where the device works in the host's memory: how many; ends [n][2], rows of elements, the second one
+ * of a striker's piece n_rows and above; touch [n], whether they touched when they were evaluated last. 0 elsewhere. */
+int32_t brc_contact_pairs_here(const brc_simulation *s, const int32_t **ends, const int32_t **touch);
 /* Rigid cells: momentum of turning gains kick times torque, then they turn for a time of drift [s]; extra as the kernel
  * advance_rotation. */
 brc_status brc_contact_turn(brc_simulation *s, double kick, double drift, double extra);

@@ -312,7 +312,8 @@ static brc_status make_list(brc_simulation *s, bool whole, bool carried)
     brc_rows_among *const outer = brc_device_keep_among(s->device, c->listed);
     const brc_status status = find_pairs(s, whole, carried);
     brc_device_keep_among(s->device, outer);
-    return status;
+    BRC_TRY(status);
+    return brc_hook_run(s, BRC_HOOK_PAIRS, NULL);
 }
 
 brc_status brc_contact_list_again(brc_simulation *s)
@@ -349,6 +350,16 @@ brc_status brc_contact_list_more(brc_simulation *s, brc_buffer *touched)
 
 BRC_READ(bool, brc_contact_is_due, s->contact && (s->contact->due || s->contact->always_whole))
 BRC_READ(int64_t, brc_contact_lists, s->contact ? s->contact->lists : 0)
+
+int32_t brc_contact_pairs_here(const brc_simulation *s, const int32_t **ends, const int32_t **touch)
+{
+    const brc_contact_state *c = s->contact;
+    const int32_t n = c ? c->now.n_pairs : 0;
+    *ends = n > 0 ? brc_buffer_host(c->now.ends) : NULL;
+    *touch = n > 0 ? brc_buffer_host(c->touch) : NULL;
+    return *ends && *touch ? n : 0;
+}
+
 brc_status brc_contact_list_around(brc_simulation *s, brc_buffer *touched)
 {
     return s->contact ? find_changed(s, touched) : BRC_OK;

@@ -1,4 +1,5 @@
 /* Bonds that break: limits of the elements, the order of the passes, and what broke (fracture.cl). */
+#include "../../core/awake.h"
 #include "cell_breaks_internal.h"
 #include <math.h>
 #include <stdio.h>
@@ -252,7 +253,8 @@ brc_status brc_fracture_choose(brc_simulation *s, int32_t moment)
 {
     brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
-    if (level < 2) return BRC_RUN(f->check, s->n_groups, {"level", BRC_INT(level)}, {"step", BRC_INT(moment)});
+    if (level < 2)
+        return brc_pass_look_awake(s, f->check, BRC_GIVEN({"level", BRC_INT(level)}, {"step", BRC_INT(moment)}));
     BRC_TRY(find_stress(s));
     return BRC_RUN(f->choose, n, {"step", BRC_INT(moment)});
 }

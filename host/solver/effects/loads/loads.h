@@ -27,6 +27,9 @@ typedef struct brc_prescribed {
 typedef void (*brc_prescribed_call)(void *self, const brc_prescribed *one);
 /* One call for each: moved elements, then held faces, then turned elements. */
 void brc_loads_each_prescribed(const brc_simulation *s, brc_prescribed_call call, void *self);
+/* rows [n_rows]: 1 for elements that loads of this stage set in motion, at any time of it; the others, those that are
+ * held where they are among them, as they were. */
+brc_status brc_loads_driven(brc_simulation *s, uint8_t *rows);
 
 /* ---- faces, for models (face_loads.c) ---- */
 /* Some face is held or bears a traction; how many are held. */

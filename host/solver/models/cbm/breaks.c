@@ -1,5 +1,6 @@
 /* Beams that break by the virial stress of their elements: limits, and the order of the passes. */
 #include "beam_closure.h"
+#include "../../core/awake.h"
 #include "../../laws/beam_law.h"
 #include "beam_softening.h"
 #include "../../effects/contact/contact.h"
@@ -85,7 +86,7 @@ brc_status brc_cbm_create_fracture(brc_simulation *s)
 
 brc_status brc_cbm_breaking_force(brc_simulation *s, const brc_force_request *r)
 {
-    BRC_TRY(brc_pass_run_on(brc_cbm_own_of(s)->breaking_force, s->n_groups, r, NULL, NULL));
+    BRC_TRY(brc_pass_run_awake(s, brc_cbm_own_of(s)->breaking_force, s->n_groups, r, NULL));
     BRC_TRY(brc_beam_softening_force(s, r));
     return brc_beam_closure_force(s, r);
 }

@@ -1,4 +1,5 @@
 /* Passes of cbm. */
+#include "../../core/awake.h"
 #include "cbm_internal.h"
 
 brc_status brc_cbm_create(brc_simulation *s)
@@ -19,5 +20,6 @@ brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const br
     const brc_beam *beam = brc_beam_of_element(s, 0);
     brc_set_beam(s, beam->axial, beam->bend, beam->twist);
     BRC_TRY(BRC_PASSES(s, request, BRC_PASS(&p->force, "cbm_force_pass", NULL)));
+    BRC_TRY(brc_awake_passes(s, 1, (const brc_pass *const[]){p->force}));
     return BRC_PASSES(s, run, BRC_PASS(&p->energy, "cbm_energy", NULL), BRC_PASS(&p->virial, "cbm_virial", "virial"));
 }

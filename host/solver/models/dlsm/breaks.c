@@ -1,4 +1,5 @@
 /* Bonds of dlsm that break (docs/notebook/fracture.md, "Fracture of cells"). */
+#include "../../core/awake.h"
 #include "cell_softening.h"
 #include "../../../../preprocess/domain/domain_rows.h"
 #include "../../../base/ranks.h"
@@ -120,7 +121,7 @@ brc_status brc_dlsm_breaks_create(brc_simulation *s)
 
 brc_status brc_dlsm_mark(brc_simulation *s, double share)
 {
-    return BRC_RUN(brc_dlsm_own_of(s)->check, s->n_groups, {"share", BRC_COEFF(share)});
+    return brc_pass_look_awake(s, brc_dlsm_own_of(s)->check, BRC_GIVEN({"share", BRC_COEFF(share)}));
 }
 
 brc_status brc_dlsm_rebuild(brc_simulation *s)

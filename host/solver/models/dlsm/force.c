@@ -1,6 +1,7 @@
 /* Forces and energies of dlsm: the order of its passes (docs/notebook/theory.md T2). */
 #include "cell_softening.h"
 #include "closed_faces.h"
+#include "../../core/awake.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/loads/loads.h"
 #include "dlsm_internal.h"
@@ -43,7 +44,7 @@ static void hold_in_passes(const brc_simulation *s, const brc_force_request *r, 
 static brc_status gradients(brc_simulation *s, const brc_force_request *r, const extent *x)
 {
     const brc_dlsm_own *own = brc_dlsm_own_of(s);
-    if (x->held_gradients) return brc_pass_run_on(own->gradient_held, s->n_groups, r, NULL, NULL);
+    if (x->held_gradients) return brc_pass_run_awake(s, own->gradient_held, s->n_groups, r, NULL);
     BRC_TRY(brc_pass_over(s, own->gradient, own->gradient_listed, x->list, x->gradient, r, NULL));
     if (!r->homogeneous) BRC_TRY(brc_softening_gradient(s, x->list, x->gradient));
     return brc_held_faces_run(s, own->held_gradient, r, false);
@@ -83,7 +84,7 @@ static brc_status fluxes(brc_simulation *s, const brc_force_request *r, const ex
     BRC_TRY(brc_closed_faces_press(s, r));
     if (r->displacement == brc_displacement_of(s) && !r->homogeneous) BRC_TRY(brc_contact_gradients(s));
     if (x->held_forces)
-        BRC_TRY(brc_pass_run_on(own->stress_held, s->n_groups, r, NULL, NULL));
+        BRC_TRY(brc_pass_run_awake(s, own->stress_held, s->n_groups, r, NULL));
     else if (r->rings && brc_rims_energies_apart(s))
         BRC_TRY(brc_rims_stress(s, r));
     else
@@ -110,7 +111,7 @@ brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     if (!r->rings && !brc_pass_is_whole(s, list, x.force))
         BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
     if (x.held_forces)
-        BRC_TRY(brc_pass_run_on(screens ? own->screening_force_held : own->force_held, s->n_groups, r, NULL, NULL));
+        BRC_TRY(brc_pass_run_awake(s, screens ? own->screening_force_held : own->force_held, s->n_groups, r, NULL));
     else if (screens)
         BRC_TRY(brc_dlsm_screening_forces(s, r, list, x.force));
     else

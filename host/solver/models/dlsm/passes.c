@@ -1,4 +1,5 @@
 /* Passes of dlsm. */
+#include "../../core/awake.h"
 #include "dlsm_internal.h"
 
 brc_status brc_dlsm_create(brc_simulation *s)
@@ -12,11 +13,12 @@ void brc_dlsm_free(brc_simulation *s)
 }
 
 /* A broken bond has other rows of its two elements. */
-static brc_status derive_rings(brc_dlsm_own *p)
+static brc_status derive_rings(brc_simulation *s, brc_dlsm_own *p)
 {
     const brc_pass *const passes[] = {p->gradient, p->stress, p->flux, p->force};
     int ring[4];
     BRC_TRY(brc_passes_rings(4, passes, "area inv_shape", ring));
+    BRC_TRY(brc_awake_passes(s, 4, passes));
     p->ring.gradient = ring[0], p->ring.stress = ring[1], p->ring.flux = ring[2], p->ring.force = ring[3];
     return BRC_OK;
 }
@@ -37,7 +39,7 @@ brc_status brc_dlsm_make_passes(brc_simulation *s, const brc_scope *run, const b
         {&p->force_listed, "dlsm_force_listed", BRC_LISTED, whole},
     };
     BRC_TRY(BRC_PASSES_MAKE(s, request, of_requests));
-    BRC_TRY(derive_rings(p));
+    BRC_TRY(derive_rings(s, p));
     const brc_pass_wanted of_state[] = {
         {&p->energy, "dlsm_energy", NULL, false},
         {&p->energy_listed, "dlsm_energy_listed", BRC_LISTED, whole},

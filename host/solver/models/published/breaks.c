@@ -1,5 +1,6 @@
 /* Bonds of dlsm-published that break by their normal stress (AGH19 section 5.3, eq. 35-36): passes of
  * published_breaks.cl. */
+#include "../../core/awake.h"
 #include "../../core/sym3.h"
 #include "published_internal.h"
 #include <math.h>
@@ -87,7 +88,7 @@ brc_status brc_published_breaks_force(brc_simulation *s, const brc_force_request
 
 brc_status brc_published_mark(brc_simulation *s, double share)
 {
-    return BRC_RUN(brc_published_own_of(s)->check, s->n_groups, {"share", BRC_COEFF(share)});
+    return brc_pass_look_awake(s, brc_published_own_of(s)->check, BRC_GIVEN({"share", BRC_COEFF(share)}));
 }
 
 brc_status brc_published_rebuild(brc_simulation *s)

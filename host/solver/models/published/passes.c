@@ -1,4 +1,5 @@
 /* Passes of dlsm-published. */
+#include "../../core/awake.h"
 #include "published_internal.h"
 
 brc_status brc_published_create(brc_simulation *s)
@@ -18,6 +19,7 @@ brc_status brc_published_make_passes(brc_simulation *s, const brc_scope *run, co
     BRC_TRY(BRC_PASSES(s, request, BRC_PASS(&p->strain, "published_strain_pass", NULL),
                        BRC_PASS(&p->force, "published_force_pass", NULL),
                        {&p->force_listed, "published_force_pass_listed", BRC_LISTED, whole}));
+    BRC_TRY(brc_awake_passes(s, 2, (const brc_pass *const[]){p->strain, p->force}));
     return BRC_PASSES(s, run, BRC_PASS(&p->energy, "published_energy", NULL),
                       {&p->energy_listed, "published_energy_listed", BRC_LISTED, whole});
 }
