@@ -14,16 +14,17 @@
 static const double most_awake = 0.95;
 
 typedef struct rest {
-    bool given_up;        /* in this stage: nothing is, or stays, at rest */
-    int steps;            /* of the stage, up to FOLLOWED */
-    int rings;            /* that forces reach; farther rows are at rings + 1 */
-    int64_t lists;        /* of pairs, seen so far */
-    uint8_t *moved;       /* [n_rows] */
-    uint8_t *distance;    /* [n_rows] rings from rows that moved, or are pushed by surfaces; rings + 1: more */
-    uint8_t *in;          /* [n_groups] awake */
-    int32_t n, *groups;   /* they, ascending */
-    int32_t *front, *far; /* [n_rows] scratch: rows of one ring, and of the next */
-    bool longer;          /* `in` has more than groups */
+    bool given_up;               /* in this stage: nothing is, or stays, at rest */
+    int steps;                   /* of the stage, up to FOLLOWED */
+    int rings;                   /* that forces reach; farther rows are at rings + 1 */
+    int64_t lists;               /* of pairs, seen so far */
+    uint8_t *moved;              /* [n_rows] */
+    uint8_t *distance;           /* [n_rows] rings from rows that moved, or are pushed by surfaces; rings + 1: more */
+    uint8_t *in;                 /* [n_groups] awake */
+    int32_t n, *groups;          /* they, ascending */
+    int32_t n_watched, *watched; /* those of them with a row that has not moved yet */
+    int32_t *front, *far;        /* [n_rows] scratch: rows of one ring, and of the next */
+    bool longer;                 /* `in` has more than groups */
 } rest;
 enum { FOLLOWED = 2 }; /* the first evaluation of a stage is of all */
 
@@ -47,6 +48,7 @@ static void forget(rest *r)
     brc_memory_free(r->distance);
     brc_memory_free(r->in);
     brc_memory_free(r->groups);
+    brc_memory_free(r->watched);
     brc_memory_free(r->front);
     brc_memory_free(r->far);
     *r = (rest){0};
@@ -117,8 +119,9 @@ static bool has_moved(const brc_simulation *s, int64_t row)
 static void wake(const brc_simulation *s, rest *r, int32_t row)
 {
     const int32_t group = row / (s->layout->n_rows / s->n_groups);
-    r->longer |= !r->in[group];
-    r->in[group] = 1;
+    if (r->in[group]) return;
+    r->in[group] = r->longer = true;
+    r->watched[r->n_watched++] = group;
 }
 
 /* Rows front[n], whose distance is 0 now: those around them are nearer than they were. */
@@ -199,6 +202,7 @@ static brc_status begin(brc_simulation *s, rest *r)
     BRC_TRY(BRC_ALLOCATE(s->context, &r->distance, n_rows, "elements at rest"));
     BRC_TRY(BRC_ALLOCATE(s->context, &r->in, s->n_groups, "elements at rest"));
     BRC_TRY(BRC_ALLOCATE(s->context, &r->groups, s->n_groups, "elements at rest"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &r->watched, s->n_groups, "elements at rest"));
     BRC_TRY(BRC_ALLOCATE(s->context, &r->front, n_rows, "elements at rest"));
     BRC_TRY(BRC_ALLOCATE(s->context, &r->far, n_rows, "elements at rest"));
     r->rings = brc_awake_rings(s) + (s->fracture ? 1 : 0); /* criteria read stresses of neighbours */
@@ -221,14 +225,23 @@ static brc_status begin(brc_simulation *s, rest *r)
 static void follow(brc_simulation *s, rest *r)
 {
     const int32_t width = s->layout->n_rows / s->n_groups;
-    int32_t n = 0;
+    int32_t n = 0, left = 0;
     bool some = false;
-    for (int32_t k = 0; k < r->n; ++k)
-        for (int32_t row = r->groups[k] * width; row < (r->groups[k] + 1) * width; ++row) {
-            if (r->moved[row] || !moves(s, row)) continue;
+    for (int32_t k = 0; k < r->n_watched; ++k) {
+        const int32_t group = r->watched[k];
+        bool whole = true;
+        for (int32_t row = group * width; row < (group + 1) * width; ++row) {
+            if (r->moved[row]) continue;
+            if (!moves(s, row)) {
+                whole = false;
+                continue;
+            }
             r->moved[row] = some = true;
             add(r, row, &n);
         }
+        if (!whole) r->watched[left++] = group;
+    }
+    r->n_watched = left;
     spread(s, r, n);
     if (some || r->lists != brc_contact_lists(s)) add_pairs(s, r);
 }
