@@ -84,6 +84,13 @@ LAW beam_axis beam_axis_of(lane c, lane o, lane k_m, lane more, lane y, lane per
     return (beam_axis){held * c * o, lets * c * c, held * f, held * o - lets * per * c * y};
 }
 
+/* Where keeps is 0. */
+LAW beam_carry beam_pressed(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness)
+{
+    const lane zero = LANE_ZERO, k = stiffness.axial * inv_length0, y = lane_min(cbm_elongation(shape), zero);
+    return (beam_carry){{lane_vec3_scale(k * y, shape.axis), {zero, zero, zero}}, REAL(0.5) * (k * y * y)};
+}
+
 /* branch: x_j - x_i now [m], axis0: e; q_i, q_j: orientations of the elements. */
 LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 branch,
                             lane_vec3 axis0, lane_quat q_i, lane_quat q_j, beam_lean lean)

@@ -54,8 +54,9 @@ LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, OWN(int) othe
     return b;
 }
 
-LAW beam_carry closure_carry(closure_bond b, cbm_own own)
+LAW beam_carry closure_carry(closure_bond b, cbm_own own, int leans)
 {
+    if (!leans) return beam_pressed(b.shape, b.inv_length0, b.stiffness);
     return beam_carried(b.shape, b.inv_length0, b.stiffness, b.branch, b.axis0, own.orientation, b.q_j, b.lean);
 }
 
@@ -77,7 +78,7 @@ LAW closure_sum closure_group(int group, OWN(int) row_start, OWN(int) other, OWN
         if (!closure_any(bears, (brc_size)slot * C + (brc_size)lane0)) continue;
         const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
                                                bend, twist, beam_of, leans, lean);
-        const beam_carry carry = closure_carry(b, own);
+        const beam_carry carry = closure_carry(b, own, leans);
         sum.force = lane_vec3_add(sum.force, carry.end.force);
         sum.torque = lane_vec3_add(sum.torque, carry.end.torque);
         sum.virial = cbm_add_virial(sum.virial, b.branch, carry.end.force);
@@ -164,17 +165,19 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, OWN(int) row_start
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
-        for (int slot = row_start[slice]; rubs[group] && slot < row_start[slice + 1]; ++slot) {
+        const int last = rubs[group] ? row_start[slice + 1] : row_start[slice];
+        cbm_own own;
+        if (rubs[group]) own = cbm_own_of(group, displacement, orientation, 1);
+        for (int slot = row_start[slice]; slot < last; ++slot) {
             const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
             if (!closure_any(bears, entry)) continue;
             closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
                                              bend, twist, beam_of, leans, lean);
             const lane apart = b.shape.strain - clear;
             if (leans) {
-                const beam_carry before = closure_carry(b, own);
+                const beam_carry before = closure_carry(b, own, leans);
                 b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);
-                const beam_carry after = closure_carry(b, own);
+                const beam_carry after = closure_carry(b, own, leans);
                 const lane share = REAL(0.5) * b.bears * (before.energy - after.energy);
                 lane_store(lean, ((brc_size)slot * LEAN + 6) * C + (brc_size)lane0, b.lean.keeps);
 #define LOSE(l) lost[first + 0x##l] += (state)LANE_ITEM(share, l);
@@ -206,8 +209,10 @@ KERNEL void closure_begin(int n_groups, int step, int closure, int softens, stat
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
-        for (int slot = row_start[slice]; mark[group] == step && slot < row_start[slice + 1]; ++slot) {
+        const int last = mark[group] == step ? row_start[slice + 1] : row_start[slice];
+        cbm_own own;
+        if (mark[group] == step) own = cbm_own_of(group, displacement, orientation, 1);
+        for (int slot = row_start[slice]; slot < last; ++slot) {
             const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
             int any = 0;
             for (int l = 0; l < W; ++l) {
@@ -226,7 +231,7 @@ KERNEL void closure_begin(int n_groups, int step, int closure, int softens, stat
             rubs[group] = 1;
             const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation,
                                                    axial, bend, twist, beam_of, softens, lean);
-            const beam_carry carry = closure_carry(b, own);
+            const beam_carry carry = closure_carry(b, own, softens);
 #define JOIN(l)                                                                                                        \
     if (break_step[entry + 0x##l] == step) {                                                                           \
         const int softened = softens && open[entry + 0x##l] == BEAM_BROKEN, e = first + 0x##l;                         \
