@@ -13,7 +13,7 @@ foreach(name IN LISTS brc_instance_names) # the kernels, compiled once per instr
     list(APPEND brc_objects $<TARGET_OBJECTS:${name}>)
 endforeach()
 add_library(brc_shared SHARED ${brc_objects})
-target_link_libraries(brc_shared PRIVATE brc_yaml brc_opencl brc_voro brc_ffi brc_cairo brc_zlib brc_lapacke brc_cminpack brc_hdf5 OpenMP::OpenMP_C
+target_link_libraries(brc_shared PRIVATE brc_yaml brc_opencl brc_voro brc_ffi brc_cairo brc_zlib brc_deflate brc_lapacke brc_cminpack brc_hdf5 OpenMP::OpenMP_C
                       ${CMAKE_DL_LIBS} m)
 target_link_options(brc_shared PRIVATE -Wl,--version-script=${CMAKE_SOURCE_DIR}/cmake/breccia.map)
 target_include_directories(brc_shared INTERFACE $<INSTALL_INTERFACE:include>)

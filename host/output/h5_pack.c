@@ -1,17 +1,17 @@
 /* Shuffle and deflate, as HDF5's filters of these names undo them. */
 #include "h5_pack.h"
 #include "../base/memory.h"
+#include <libdeflate.h>
 #include <omp.h>
 #include <string.h>
-#include <zlib.h>
 
 enum { AT_ONCE = 64, SAMPLES = 256 }; /* blocks packed before they are written; numbers of a block that are looked at */
 /* Blocks of 8 bytes a number are packed where this part of their bytes or more equals the byte of the number before:
  * doubles that differ have a sixth (signs and exponents), which is not worth the time, counts and zeros most. Others
  * always are: floats shrink by a twelfth to a seventh. A last block that is not full is packed for what fills it up. */
 #define WORTH_PACKING 0.2
-/* Of deflate: codes are renewed every 8192 signs, which suits bytes that change from place to place. */
-#define MEMORY 7
+/* Of deflate: the quickest that looks for what occurs again. */
+#define LEVEL 1
 
 /* What is packed: rows of `width` bytes in all, numbers of `bytes` bytes. */
 typedef struct packing {
@@ -47,18 +47,11 @@ static bool is_worth_packing(const packing *p, int64_t k)
     return (double)equal >= WORTH_PACKING * (double)(seen * p->bytes);
 }
 
-/* Bytes of a block deflated into out, which has room for `room`; 0: memory is exhausted. */
-static int64_t deflated(const packing *p, const unsigned char *block, unsigned char *out, int64_t room)
+/* Bytes of a block deflated into out, which has room for `room`. */
+static int64_t deflated(const packing *p, struct libdeflate_compressor *by, const unsigned char *block,
+                        unsigned char *out, int64_t room)
 {
-    z_stream z = {.next_in = (unsigned char *)(uintptr_t)block,
-                  .avail_in = (uInt)(p->block * p->width),
-                  .next_out = out,
-                  .avail_out = (uInt)room};
-    if (deflateInit2(&z, 1, Z_DEFLATED, MAX_WBITS, MEMORY, Z_DEFAULT_STRATEGY) != Z_OK) return 0;
-    const bool done = deflate(&z, Z_FINISH) == Z_STREAM_END;
-    const int64_t bytes = (int64_t)z.total_out;
-    deflateEnd(&z);
-    return done ? bytes : 0;
+    return (int64_t)libdeflate_zlib_compress(by, block, (size_t)(p->block * p->width), out, (size_t)room);
 }
 
 /* Bytes of block k packed into out; 0: memory is exhausted. scratch: room for a block, and for a packed one behind it.
@@ -67,23 +60,29 @@ static int64_t pack(const packing *p, int64_t k, unsigned char *scratch, unsigne
                     uint32_t *skipped)
 {
     const int64_t raw = p->block * p->width, rest = (p->rows - k * p->block) * p->width;
+    struct libdeflate_compressor *by = libdeflate_alloc_compressor(LEVEL);
     *skipped = 0;
+    if (!by) return 0;
     shuffle(p, k, scratch);
-    const int64_t bytes = deflated(p, scratch, out, room);
-    if (!p->either || bytes == 0) return bytes;
-    memset(scratch, 0, (size_t)raw);
-    memcpy(scratch, p->data + k * raw, (size_t)(rest < raw ? rest : raw));
-    const int64_t plain = deflated(p, scratch, scratch + raw, room);
-    if (plain == 0 || plain >= bytes) return plain == 0 ? 0 : bytes;
-    memcpy(out, scratch + raw, (size_t)plain);
-    *skipped = AS_THEY_ARE;
-    return plain;
+    int64_t bytes = deflated(p, by, scratch, out, room);
+    if (p->either) {
+        memset(scratch, 0, (size_t)raw);
+        memcpy(scratch, p->data + k * raw, (size_t)(rest < raw ? rest : raw));
+        const int64_t plain = deflated(p, by, scratch, scratch + raw, room);
+        if (plain < bytes) {
+            memcpy(out, scratch + raw, (size_t)plain);
+            *skipped = AS_THEY_ARE;
+            bytes = plain;
+        }
+    }
+    libdeflate_free_compressor(by);
+    return bytes;
 }
 
 static void write_blocks(brc_h5 *h5, const char *name, int64_t first, const packing *p, int n_threads)
 {
     const int64_t n = (p->rows + p->block - 1) / p->block, raw = p->block * p->width,
-                  room = (int64_t)compressBound((uLong)raw) + 64;
+                  room = (int64_t)libdeflate_zlib_compress_bound(NULL, (size_t)raw);
     const int64_t at_once = n < AT_ONCE ? n : AT_ONCE;
     const int threads = n_threads > 0 ? n_threads : omp_get_max_threads();
     unsigned char *scratch = NULL, *out = NULL;
