@@ -5,13 +5,15 @@
 /* out = right - A x of the finest level of cells: its bonds from area vectors and L/S, or from branches and areas
  * (by_branch). moduli_of [n][3]: with several materials. n_right: right sides there are: 0 none, 1 forces, 2 forces and
  * torques. */
-KERNEL void multigrid_cells(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) vector, OWN(coeff) number,
-                            int by_branch, coeff axial, coeff shear, coeff frame, GATHER(coeff) moduli_of,
-                            GATHER(state) move, GATHER(state) turn, int n_right, OWN(state) right_force,
-                            OWN(state) right_torque, PUT(state) force, PUT(state) torque)
+KERNEL void multigrid_cells(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) vector,
+                            OWN(coeff) number, int by_branch, coeff axial, coeff shear, coeff frame,
+                            GATHER(coeff) moduli_of, GATHER(state) move, GATHER(state) turn, int n_right,
+                            OWN(state) right_force, OWN(state) right_torque, PUT(state) force, PUT(state) torque)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
+        members_states_later(who, move, 3, ahead);
+        members_states_later(who, turn, 3, ahead);
         const state_vec3 u = state_gather3(move, who.own), theta = state_gather3(turn, who.own);
         const state_vec3 zero = {STATE_FROM_LANE(LANE_ZERO), STATE_FROM_LANE(LANE_ZERO), STATE_FROM_LANE(LANE_ZERO)};
         const lane_vec3 own_turn = state_vec3_difference(theta, zero);
@@ -22,8 +24,6 @@ KERNEL void multigrid_cells(int n_groups, OWN(int) row_start, OWN(int) neighbour
             const lane_int j = members_neighbour(who, neighbour, slot);
             members_ahead3(who, vector, slot);
             members_ahead1(who, number, slot);
-            gathers_ahead(move, 3, neighbour, slot, who.end, who.lane0);
-            gathers_ahead(turn, 3, neighbour, slot, who.end, who.lane0);
             const lane_vec3 v = members_row3(who, vector, slot);
             const lane k = members_row1(who, number, slot);
             const multigrid_place at = by_branch ? multigrid_place_of_branch(v, k) : multigrid_place_of_face(v, k);
@@ -126,6 +126,42 @@ KERNEL void multigrid_step(int n, state weight, int add, OWN(state) inverse, int
         x.v[4] = x.v[4] + p[4] * a + p[9] * b + p[13] * c + p[16] * d + p[18] * g + p[19] * h;
         x.v[5] = x.v[5] + p[5] * a + p[10] * b + p[14] * c + p[17] * d + p[19] * g + p[20] * h;
         multigrid_store(move, turn, e, x);
+    }
+}
+
+/* The same of the finest level, whose triangles lie by slices [slice][21][C]. */
+LAW state_vec3 multigrid_part(state weight, int there, GATHER(state) p, lane_int own)
+{
+    const lane_state zero = STATE_FROM_LANE(LANE_ZERO);
+    if (!there) return (state_vec3){zero, zero, zero};
+    const state_vec3 x = state_gather3(p, own);
+    return (state_vec3){weight * x.x, weight * x.y, weight * x.z};
+}
+KERNEL void multigrid_finest_step(int n_groups, state weight, int add, OWN(state) inverse, int n_right,
+                                  OWN(state) force, OWN(state) torque, UPDATE(state) move, UPDATE(state) turn)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const lane_int own = lane_own(group * W);
+        const state_vec3 f = multigrid_part(weight, 1, force, own),
+                         t = multigrid_part(weight, n_right > 1, torque, own);
+        const state_vec3 was = multigrid_part(1, add, move, own), turned = multigrid_part(1, add, turn, own);
+        const brc_size at = (brc_size)SLICE_OF(group) * 21 * C + (brc_size)FIRST_LANE_OF(group);
+#define P(k) state_load(inverse, at + (k)*C)
+        const lane_state p1 = P(1), p2 = P(2), p3 = P(3), p4 = P(4), p5 = P(5), p7 = P(7), p8 = P(8), p9 = P(9),
+                         p10 = P(10), p12 = P(12), p13 = P(13), p14 = P(14), p16 = P(16), p17 = P(17), p19 = P(19);
+        const lane_state x = was.x + P(0) * f.x + p1 * f.y + p2 * f.z + p3 * t.x + p4 * t.y + p5 * t.z,
+                         y = was.y + p1 * f.x + P(6) * f.y + p7 * f.z + p8 * t.x + p9 * t.y + p10 * t.z,
+                         z = was.z + p2 * f.x + p7 * f.y + P(11) * f.z + p12 * t.x + p13 * t.y + p14 * t.z,
+                         a = turned.x + p3 * f.x + p8 * f.y + p12 * f.z + P(15) * t.x + p16 * t.y + p17 * t.z,
+                         b = turned.y + p4 * f.x + p9 * f.y + p13 * f.z + p16 * t.x + P(18) * t.y + p19 * t.z,
+                         c = turned.z + p5 * f.x + p10 * f.y + p14 * f.z + p17 * t.x + p19 * t.y + P(20) * t.z;
+#undef P
+#define PUT_ROW(l)                                                                                                     \
+    multigrid_store(move, turn, group *W + 0x##l,                                                                      \
+                    (multigrid_node){{LANE_ITEM(x, l), LANE_ITEM(y, l), LANE_ITEM(z, l), LANE_ITEM(a, l),              \
+                                      LANE_ITEM(b, l), LANE_ITEM(c, l)}});
+        LANE_EACH(PUT_ROW)
+#undef PUT_ROW
     }
 }
 

@@ -61,6 +61,9 @@ brc_status brc_level_step(brc_multigrid *m, int level, double weight, bool add, 
     const brc_level *l = &m->level[level];
     const brc_level_vectors v = {
         .move = x.move, .turn = x.turn, .force = r.move, .torque = r.turn, .n_right = r.turn ? 2 : 1};
+    if (level == 0)
+        return BRC_RUN_ON(m->pass.finest_step, m->s->n_groups, &v, l, {"weight", BRC_STATE(weight)},
+                          {"add", BRC_INT(add ? 1 : 0)});
     return BRC_RUN_ON(m->pass.step, l->n, &v, l, {"weight", BRC_STATE(weight)}, {"add", BRC_INT(add ? 1 : 0)});
 }
 

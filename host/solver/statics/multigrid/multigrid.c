@@ -60,6 +60,7 @@ static brc_status make_passes(brc_multigrid *m)
                   {&p->ground, &finest, "multigrid_ground", NULL},
                   {&p->coarsest, &finest, "multigrid_coarsest", NULL},
                   {&p->matrix, &matrix, "multigrid_matrix", NULL},
+                  {&p->finest_step, &matrix, "multigrid_finest_step", "weight add"},
                   {&p->step, &matrix, "multigrid_step", "weight add"},
                   {&p->collect, &aggregates, "multigrid_collect", "whole_force whole_torque"},
                   {&p->spread, &aggregates, "multigrid_spread", "whole_move whole_turn"},
@@ -127,6 +128,20 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
     return BRC_OK;
 }
 
+/* [n_elements][21] to [n_slices][21][C]. */
+static brc_status upload_inverse(brc_simulation *s, brc_buffer *out, const double (*inverse)[21])
+{
+    const brc_layout *layout = s->layout;
+    BRC_LOCAL(s->context, 21 * (int64_t)layout->n_rows, double, sliced, "multigrid");
+    for (int32_t r = 0; r < layout->n_rows; ++r) {
+        const int32_t e = layout->element_of_row[r];
+        double *to = sliced + 21 * (int64_t)(r / layout->slice * layout->slice) + r % layout->slice;
+        for (int k = 0; e >= 0 && k < 21; ++k)
+            to[k * layout->slice] = inverse[e][k];
+    }
+    return brc_upload_state(s, out, sliced, 21 * (int64_t)layout->n_rows);
+}
+
 /* The finest level: inverse [n_elements][21]. */
 static brc_status upload_finest(brc_multigrid *m, const brc_fine *f, const double (*inverse)[21])
 {
@@ -135,7 +150,7 @@ static brc_status upload_finest(brc_multigrid *m, const brc_fine *f, const doubl
     l->n = s->layout->n_rows;
     BRC_TRY(upload_bonds(m, f));
     BRC_TRY(brc_multigrid_list(s, &brc_multigrid_finest_fields, 0, l));
-    BRC_TRY(brc_state_to_rows(s, l->inverse, inverse[0], 21, 0));
+    BRC_TRY(upload_inverse(s, l->inverse, inverse));
     return upload_rows(s, l->free_bits, NULL, f->nodes.free_bits, 0);
 }
 

@@ -11,7 +11,7 @@ enum { BRC_MOST_LEVELS = 16 };
 typedef struct brc_level {
     int64_t n;
     double weight;                      /* of a step [-] */
-    brc_buffer *inverse;                /* [n][21] of diagonal blocks */
+    brc_buffer *inverse;                /* [n][21] of diagonal blocks, the finest [n_slices][21][C] */
     brc_buffer *start, *column, *block; /* its matrix; the finest: none, it is made from bonds */
     brc_unknowns right, x, left, step;  /* right side and answer (none on the finest), residual, scratch */
     /* to the next level: P, and its places by columns; from the finest: aggregates */
@@ -20,7 +20,7 @@ typedef struct brc_level {
 } brc_level;
 
 typedef struct brc_level_passes {
-    brc_pass *all, *cells, *ground, *matrix, *step, *collect, *spread, *prolong, *restriction, *coarsest;
+    brc_pass *all, *cells, *ground, *matrix, *step, *finest_step, *collect, *spread, *prolong, *restriction, *coarsest;
 } brc_level_passes;
 /* Vectors of a launch, as multigrid.cl calls them; right: of n_right parts, 0 none, 1 forces, 2 torques too. */
 typedef struct brc_level_vectors {
