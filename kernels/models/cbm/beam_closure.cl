@@ -4,17 +4,42 @@
  *
  * other [slot][C]: row of the element over the bond there was, own row where there never was one. bears [slot][C]: 1
  * from the break until the ends stand clear. lean [slot][LEAN][C]: SIDE, ALONG, COSINE, SINE, KEEPS as of the
- * softening; of beams that broke at once ALONG 1 and zeros: the push along the axis is all. rubs [n / W]: 1 from the
- * first such beam of the group on. */
+ * softening; of beams that broke at once ALONG 1 and zeros: the push along the axis is all. rubs [n / W]: a bit
+ * for each slot of the group, from its first such beam on; the last bit for all slots that have none. */
 
 #define LEAN 7
 #define LEAN_ALONG 3
 
-LAW int closure_any(OWN(int) bears, brc_size entry)
+#define CLOSURE_BITS 31
+LAW int closure_bit(int turn) { return 1 << (turn < CLOSURE_BITS ? turn : CLOSURE_BITS - 1); }
+/* Whether beams of a slot bear, the turn-th of its group's. */
+LAW int closure_any(int rubs, int turn, OWN(int) bears, brc_size entry)
 {
     int any = 0;
+    if (!(rubs & closure_bit(turn))) return 0;
     for (int l = 0; l < W; ++l) any |= bears[entry + (brc_size)l];
     return any;
+}
+
+/* Asks for the rows of the first such slot of a group that comes later: few groups have one, so no processor guesses
+ * where. */
+LAW void closure_ask_ahead(int group, int n_groups, OWN(int) rubs, OWN(int) row_start, OWN(int) other, OWN(int) bears,
+                           OWN(coeff) branch)
+{
+#ifdef ROWS_AHEAD
+    enum { GROUPS_AHEAD = 4 };
+    const int later = group + GROUPS_AHEAD < n_groups ? group + GROUPS_AHEAD : group, bits = rubs[later];
+    if (!bits) return;
+    const brc_size slot = (brc_size)(row_start[SLICE_OF(later)] + __builtin_ctz((unsigned)bits)),
+                   lane0 = (brc_size)FIRST_LANE_OF(later);
+    PREFETCH(other, slot * C + lane0);
+    PREFETCH(bears, slot * C + lane0);
+    PREFETCH(branch, slot * 3 * C + lane0);
+    PREFETCH(branch, (slot * 3 + 1) * C + lane0);
+    PREFETCH(branch, (slot * 3 + 2) * C + lane0);
+#else
+    (void)group, (void)n_groups, (void)rubs, (void)row_start, (void)other, (void)bears, (void)branch;
+#endif
 }
 
 /* The beams of a slot as they were before they broke; lanes whose beams do not bear are bonds home. */
@@ -66,16 +91,17 @@ typedef struct {
     lane_sym3 virial; /* its parts off the diagonal twice, cbm_virial_of */
     lane energy;
 } closure_sum;
-LAW closure_sum closure_group(int group, OWN(int) row_start, OWN(int) other, OWN(int) bears, OWN(coeff) branch,
-                              GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend,
-                              coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
+LAW closure_sum closure_group(int group, int bits, OWN(int) row_start, OWN(int) other, OWN(int) bears,
+                              OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                              coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
     const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
     const lane zero = LANE_ZERO;
     closure_sum sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}, zero};
-    for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
-        if (!closure_any(bears, (brc_size)slot * C + (brc_size)lane0)) continue;
+    const int begin = row_start[slice];
+    for (int slot = begin; slot < row_start[slice + 1]; ++slot) {
+        if (!closure_any(bits, slot - begin, bears, (brc_size)slot * C + (brc_size)lane0)) continue;
         const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
                                                bend, twist, beam_of, leans, lean);
         const beam_carry carry = closure_carry(b, own, leans);
@@ -100,10 +126,11 @@ KERNEL void closure_force(int n_groups, OWN(int) row_start, OWN(int) other, OWN(
                           UPDATE(state) torque, UPDATE(coeff) record, PUT(coeff) stress_bound)
 {
     FOR_EACH_ITEM(group, n_groups) {
+        closure_ask_ahead(group, n_groups, rubs, row_start, other, bears, branch);
         if (rubs[group]) {
             const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
-            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation,
-                                                  axial, bend, twist, beam_of, leans, lean);
+            const closure_sum sum = closure_group(group, rubs[group], row_start, other, bears, branch, displacement,
+                                                  orientation, axial, bend, twist, beam_of, leans, lean);
             const lane_vec3 f = sum.force, t = sum.torque;
 #define ADD(l)                                                                                                         \
     closure_add(force, first + 0x##l, LANE_ITEM(f.x, l), LANE_ITEM(f.y, l), LANE_ITEM(f.z, l));                        \
@@ -128,8 +155,8 @@ KERNEL void closure_energy(int n_groups, OWN(int) row_start, OWN(int) other, OWN
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
-            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation,
-                                                  axial, bend, twist, beam_of, leans, lean);
+            const closure_sum sum = closure_group(group, rubs[group], row_start, other, bears, branch, displacement,
+                                                  orientation, axial, bend, twist, beam_of, leans, lean);
             const lane energy = REAL(0.5) * sum.energy;
 #define ADD(l) elastic[group * W + 0x##l] += (state)LANE_ITEM(energy, l);
             LANE_EACH(ADD)
@@ -145,8 +172,8 @@ KERNEL void closure_virial(int n_groups, OWN(int) row_start, OWN(int) other, OWN
 {
     FOR_EACH_ITEM(group, n_groups) {
         if (rubs[group]) {
-            const closure_sum sum = closure_group(group, row_start, other, bears, branch, displacement, orientation,
-                                                  axial, bend, twist, beam_of, leans, lean);
+            const closure_sum sum = closure_group(group, rubs[group], row_start, other, bears, branch, displacement,
+                                                  orientation, axial, bend, twist, beam_of, leans, lean);
             const lane_sym3 v = cbm_virial_of(sum.virial), all = lane_gather6(virial, lane_own(group * W));
             lane_store6(
                 virial, group * W,
@@ -165,12 +192,13 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, OWN(int) row_start
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+        closure_ask_ahead(group, n_groups, rubs, row_start, other, bears, branch);
         const int last = rubs[group] ? row_start[slice + 1] : row_start[slice];
         cbm_own own;
         if (rubs[group]) own = cbm_own_of(group, displacement, orientation, 1);
         for (int slot = row_start[slice]; slot < last; ++slot) {
             const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
-            if (!closure_any(bears, entry)) continue;
+            if (!closure_any(rubs[group], slot - row_start[slice], bears, entry)) continue;
             closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
                                              bend, twist, beam_of, leans, lean);
             const lane apart = b.shape.strain - clear;
@@ -205,7 +233,7 @@ KERNEL void closure_begin(int n_groups, int step, int closure, int softens, stat
                           GATHER(coeff) beam_of, UPDATE(coeff) lean, OWN(int) mark, OWN(int) break_step,
                           GATHER(int) break_mode, OWN(int) open, OWN(coeff) crack, OWN(state) mass, OWN(state) inertia,
                           UPDATE(state) force, UPDATE(state) torque, UPDATE(state) velocity, UPDATE(state) spin,
-                          PUT(int) rubs, UPDATE(state) lost, UPDATE(state) gone)
+                          UPDATE(int) rubs, UPDATE(state) lost, UPDATE(state) gone)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -228,7 +256,7 @@ KERNEL void closure_begin(int n_groups, int step, int closure, int softens, stat
                                                 : 0;
             }
             if (!any) continue;
-            rubs[group] = 1;
+            rubs[group] |= closure_bit(slot - row_start[slice]);
             const closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation,
                                                    axial, bend, twist, beam_of, softens, lean);
             const beam_carry carry = closure_carry(b, own, softens);

@@ -3,7 +3,7 @@
 #include "../../effects/fracture/ahead.h"
 #include "beam_softening.h"
 
-enum { LEAN = 7 }; /* beam_closure.cl */
+enum { LEAN = 7, CLOSURE_BITS = 31 }; /* beam_closure.cl */
 
 struct brc_beam_closure {
     brc_pass *force, *energy, *virial, *move, *begin;
@@ -150,7 +150,11 @@ static brc_status find_rubs(brc_simulation *s, const beam_closure *f)
     for (int32_t block = 0; block < s->layout->n_slices; ++block)
         for (int64_t k = (int64_t)s->layout->slot_start[block] * slice;
              k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
-            if (bears[k]) rubs[(block * slice + k % slice) / width] = 1;
+            if (bears[k])
+                rubs[(block * slice + k % slice) / width] |=
+                    1 << (k / slice - s->layout->slot_start[block] < CLOSURE_BITS - 1
+                              ? k / slice - s->layout->slot_start[block]
+                              : CLOSURE_BITS - 1);
     return brc_buffer_write(f->rubs, 0, rubs, 4 * (int64_t)s->n_groups);
 }
 
