@@ -35,7 +35,8 @@ static brc_status unknown_option(brc_context *context, const brc_command *comman
                     nearest ? "'?" : "", command->name);
 }
 
-/* Take one option at argv[*k]; *k moves on when its value is the next word. */
+/* Take one option at argv[*k]; *k moves on when its value is the next word, or may be that of an option there is not.
+ */
 static brc_status take_option(brc_context *context, const brc_command *command, int argc, const char *const *argv,
                               int *k, brc_arguments *out)
 {
@@ -50,7 +51,10 @@ static brc_status take_option(brc_context *context, const brc_command *command, 
         index = find_letter(command, word[1]);
         if (word[2]) value = word + 2;
     }
-    if (index < 0) return unknown_option(context, command, word);
+    if (index < 0) {
+        if (!value && *k + 1 < argc && argv[*k + 1][0] != '-' && out->n_positional == command->most) ++*k;
+        return unknown_option(context, command, word);
+    }
     const brc_option *option = &command->options[index];
     if (!option->value && value)
         return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: --%s takes no value, found '%s'", command->name,
@@ -77,26 +81,30 @@ brc_status brc_arguments_parse(brc_context *context, const brc_command *command,
     memset(out, 0, sizeof *out);
     out->command = command;
     bool options_end = false;
+    brc_status first = BRC_OK, status;
     for (int k = 0; k < argc; ++k) {
         const char *word = argv[k];
         if (!options_end && (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0)) {
             out->help = true;
             return BRC_OK;
         }
+        status = BRC_OK;
         if (!options_end && strcmp(word, "--") == 0)
             options_end = true;
         else if (!options_end && word[0] == '-' && word[1])
-            BRC_TRY(take_option(context, command, argc, argv, &k, out));
+            status = take_option(context, command, argc, argv, &k, out);
         else if (out->n_positional == command->most)
-            return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: unexpected '%s'; usage: breccia %s %s [OPTIONS]",
-                            command->name, word, command->name, command->operands);
+            status = BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: unexpected '%s'; usage: breccia %s %s [OPTIONS]",
+                              command->name, word, command->name, command->operands);
         else
             out->positional[out->n_positional++] = word;
+        if (first == BRC_OK) first = status;
     }
+    status = BRC_OK;
     if (out->n_positional < command->least)
-        return BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: %s is missing; usage: breccia %s %s [OPTIONS]",
-                        command->name, command->operands, command->name, command->operands);
-    return BRC_OK;
+        status = BRC_FAIL(context, BRC_BAD_INPUT, "breccia %s: %s is missing; usage: breccia %s %s [OPTIONS]",
+                          command->name, command->operands, command->name, command->operands);
+    return first == BRC_OK ? status : first;
 }
 
 const char *const *brc_arguments_values(const brc_arguments *arguments, const char *name, int *n)

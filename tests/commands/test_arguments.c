@@ -77,6 +77,20 @@ static void wrong_numbers_of_values_and_operands_are_refused(void **state)
     REFUSED("SCENE is missing", &brc_command_run, "-o", "a");
 }
 
+static void all_that_is_wrong_is_told_in_one_pass(void **state)
+{
+    (void)state;
+    const char *const wrong[] = {"--restart", "-o", "a", "-o", "b", "--list", "--set"};
+    const char *const told[] = {"no option '--restart'", "--output is given twice", "no option '--list'",
+                                "--set needs a value", "SCENE is missing"};
+    for (size_t k = 0; k < sizeof told / sizeof *told; ++k)
+        refused(&brc_command_run, (int)(sizeof wrong / sizeof *wrong), wrong, told[k]);
+    parsed p = PARSE(&brc_command_run, "s", "--restart", "7", "t"); /* 7 may be its value */
+    assert_null(strstr(brc_context_message(p.context), "unexpected '7'"));
+    assert_non_null(strstr(brc_context_message(p.context), "unexpected 't'"));
+    brc_context_free(&p.context);
+}
+
 static void help_is_asked_for_anywhere(void **state)
 {
     (void)state;
@@ -123,6 +137,7 @@ int main(void)
         cmocka_unit_test(repeated_overrides_keep_their_order),
         cmocka_unit_test(an_unknown_option_is_answered_with_the_nearest),
         cmocka_unit_test(wrong_numbers_of_values_and_operands_are_refused),
+        cmocka_unit_test(all_that_is_wrong_is_told_in_one_pass),
         cmocka_unit_test(help_is_asked_for_anywhere),
         cmocka_unit_test(numbers_out_of_range_and_with_trailing_text_are_refused),
         cmocka_unit_test(lists_are_split_at_commas_and_empty_pieces_refused),
