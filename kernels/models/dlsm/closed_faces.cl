@@ -6,7 +6,9 @@
  * broke here. spring: kappa [N/m], of the bond that was; overlap: the gap, below 0, that a face had when it broke or
  * one of its cells came off, from which on it counts: nothing is pressed by a break [m]; slide [n_slots][3][C]: where
  * along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
- * Elements [n]: next: the step at which some face of which it is the lower row must be looked at again; presses: 1
+ * Elements [n]: next: the step at which the faces of which it is the lower row are looked at again, the next one while
+ * some are there: how long a face that stands open stays so is not to be told from its speed, for what pushes its cells
+ * may come in the next step; presses: 1
  * where some face is pressed, as of the last evaluation; load [n][12]: what these add to B, and their force on it [Pa]
  * [N]; held: what they hold, half of each face [J]; rubbed: lost to friction [J]; probe, near: the last step whose
  * breaks concern the element's faces, or its force. */
@@ -17,10 +19,6 @@
 #define CLOSED_KIND 4
 #define CLOSED_LOAD 12
 #define CLOSED_NEVER 2147483647
-/* A face that stands open is looked at again when twice the speed of its cells has used up the gap, within so many
- * steps. */
-#define CLOSED_QUIET 32
-
 #define CLOSED_ENTRY ((brc_size)slot * C + (brc_size)(e % C))
 #define CLOSED_IS(entry) (closed[entry] % CLOSED_KIND)
 #define CLOSED_HOLDS(entry) (CLOSED_IS(entry) == CLOSED_OPEN || CLOSED_IS(entry) == CLOSED_PRESSED)
@@ -101,13 +99,12 @@ KERNEL void closed_probe(int n_groups, int moment, OWN(int) row_start, GATHER(in
 
 /* Faces that are due, once H is there: which are pressed; and at the end of a step (moves) which slide or stand clear.
  * all: whether due or not. clear: of the length of the bond [-]; what a pressed face holds when it is let go is lost to
- * friction. friction [-]; dt of the step [s]. */
-KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, state dt,
-                          OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin, GATHER(state) place,
-                          OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement,
-                          GATHER(state) velocity, GATHER(coeff) gradient, OWN(coeff) spring, OWN(coeff) overlap,
-                          SCATTER(int) closed, SCATTER(coeff) slide, UPDATE(int) next, SCATTER(int) presses,
-                          UPDATE(state) rubbed)
+ * friction. friction [-]. */
+KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, OWN(int) row_start,
+                          GATHER(int) neighbour, OWN(int) twin, GATHER(state) place, OWN(coeff) offset,
+                          GATHER(coeff) inv_shape, GATHER(state) displacement, GATHER(coeff) gradient,
+                          OWN(coeff) spring, OWN(coeff) overlap, SCATTER(int) closed, SCATTER(coeff) slide,
+                          UPDATE(int) next, SCATTER(int) presses, UPDATE(state) rubbed)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int until = moves ? moment : moment + 1; /* of a state that a step has left, the same faces */
@@ -134,12 +131,7 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                         closed[other] = CLOSED_CLEAR;
                         continue;
                     }
-                    const vec3 away = closed_difference(velocity, e, j);
-                    const coeff way = REAL(2) * SQRT(vec3_dot(away, away)) * (coeff)dt;
-                    const int rest = pressed                              ? 1
-                                     : f.along < way * REAL(CLOSED_QUIET) ? 1 + (int)(f.along / way)
-                                                                          : CLOSED_QUIET;
-                    soonest = moment + rest < soonest ? moment + rest : soonest;
+                    soonest = moment + 1;
                 }
                 if (pressed && friction > 0 && (moves || !was)) {
                     vec3 at = f.across;

@@ -100,7 +100,7 @@ static brc_status make_passes(brc_simulation *s, closed_faces *f)
                              .outer = brc_cell_scopes_make(s, &run, &scopes)};
     const brc_pass_wanted wanted[] = {BRC_PASS(&f->keep, "closed_keep", NULL),
                                       BRC_PASS(&f->probe_pass, "closed_probe", "moment"),
-                                      BRC_PASS(&f->follow, "closed_follow", "moment all moves clear friction dt"),
+                                      BRC_PASS(&f->follow, "closed_follow", "moment all moves clear friction"),
                                       BRC_PASS(&f->press, "closed_press", "friction"),
                                       BRC_PASS(&f->again, "closed_again", "moment friction"),
                                       BRC_PASS(&f->delta_pass, "closed_delta", "moment half_kick")};
@@ -142,7 +142,7 @@ brc_status brc_closed_faces_press(brc_simulation *s, const brc_force_request *r)
     BRC_TRY(brc_buffer_fill_zero(f->presses));
     BRC_TRY(BRC_RUN(f->follow, s->n_groups, {"moment", BRC_INT(moment_of(s))}, {"all", BRC_INT(f->all ? 1 : 0)},
                     {"moves", BRC_INT(moves ? 1 : 0)}, {"clear", BRC_COEFF(clear)},
-                    {"friction", BRC_COEFF(friction_of(s))}, {"dt", BRC_STATE(brc_simulation_time_step(s).value)}));
+                    {"friction", BRC_COEFF(friction_of(s))}));
     if (moves) f->all = false;
     return BRC_RUN(f->press, s->n_groups, {"friction", BRC_COEFF(friction_of(s))});
 }
