@@ -130,7 +130,7 @@ static void evaluate(const brc_domain *d, int32_t set[3][2], int axis, const dou
 static brc_preconditioner_kind preconditioner_of(const brc_domain *domain, double tolerance)
 {
     const double iterations = -1.5 * cbrt((double)domain->n_elements) * log10(tolerance);
-    return iterations < 350 ? BRC_PRECONDITIONER_BLOCKS : BRC_PRECONDITIONER_AUTO;
+    return iterations < 350 ? BRC_PRECONDITIONER_PARTS : BRC_PRECONDITIONER_AUTO;
 }
 
 brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const brc_domain *domain,

@@ -4,6 +4,7 @@
 
 #include "../../base/log.h"
 #include "pieces.h"
+#include "rigid_parts.h"
 #include "../core/solver.h"
 #include "../core/trial_budget.h"
 #include "multigrid/multigrid.h"
@@ -23,9 +24,10 @@ typedef struct brc_preconditioner {
     brc_buffer *blocks;       /* inverses [n_rows][6], cbm [n_rows][21] */
     brc_multigrid *multigrid; /* NULL: blocks, or not made yet */
     brc_multigrid_origin origin;
-    bool blocks_alone; /* multigrid failed in this stage */
-    bool bonds_broke;  /* since multigrid was made */
-    double pace;       /* iterations for each digit of the residual in the first solve with it; 0: none yet */
+    brc_rigid_parts *parts; /* beside blocks; NULL: none, or not made yet */
+    bool blocks_alone;      /* multigrid failed in this stage */
+    bool bonds_broke;       /* since multigrid was made */
+    double pace;            /* iterations for each digit of the residual in the first solve with it; 0: none yet */
 } brc_preconditioner;
 
 /* Device vectors of a linear solve K x = r; zero only for dlsm-published, orientation for models with rotations, theta
