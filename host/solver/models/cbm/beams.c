@@ -5,6 +5,7 @@
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "../../effects/fracture/breaking.h"
+#include "../../core/sym6.h"
 #include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
@@ -178,15 +179,13 @@ brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out)
         memset(to, 0, 21 * sizeof *to);
         if (e < 0 || s->domain->row_start[e + 1] == s->domain->row_start[e]) continue;
         diagonal_block(s, e, k);
-        /* symmetric: rows may be read as columns, which LAPACK does without copies */
-        if (LAPACKE_dpotrf_work(LAPACK_COL_MAJOR, 'U', 6, &k[0][0], 6) != 0 ||
-            LAPACKE_dpotri_work(LAPACK_COL_MAJOR, 'U', 6, &k[0][0], 6) != 0) {
+        if (!brc_sym6_invert(k)) {
             ++failed;
             continue;
         }
         for (int a = 0, at = 0; a < 6; ++a)
             for (int b = a; b < 6; ++b)
-                to[at++] = k[b][a];
+                to[at++] = k[a][b];
     }
     if (failed) return BRC_FAIL(s->context, BRC_INTERNAL, "%d elements have a singular beam stiffness", failed);
     return BRC_OK;
