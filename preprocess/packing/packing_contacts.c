@@ -15,7 +15,7 @@
 #define ODD(a, b) __builtin_shufflevector(a, b, 1, 5, 3, 7)
 #define LOW(a, b) __builtin_shufflevector(a, b, 0, 1, 4, 5)
 #define HIGH(a, b) __builtin_shufflevector(a, b, 2, 3, 6, 7)
-#include "packing_contacts.inc"
+#include "packing_contacts.def"
 #undef LANES
 #undef READ
 #undef EVEN
@@ -47,7 +47,7 @@ BRC_PACK_AVX2 static void add_up_avx2(const brc_pack *pack, int64_t g, brc_pack_
 #define HIGH(a, b) __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15)
 #undef LANED_FUNCTION
 #define LANED_FUNCTION BRC_PACK_AVX512 static inline
-#include "packing_contacts.inc"
+#include "packing_contacts.def"
 
 BRC_PACK_AVX512 static void add_up_avx512(const brc_pack *pack, int64_t g, brc_pack_contact_sums *out)
 {
