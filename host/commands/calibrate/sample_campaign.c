@@ -80,7 +80,7 @@ static int count_missing(const work *w, int64_t sample, double coordination)
     return n;
 }
 
-/* The cube of a sample, packed to rest; threads that no other sample takes help. */
+/* The cube of a sample, packed to rest on one thread. */
 static brc_status pack(void *self, brc_context *context, brc_device *device, int64_t sample)
 {
     work *w = self;
@@ -93,13 +93,11 @@ static brc_status pack(void *self, brc_context *context, brc_device *device, int
                            .radius_spread = s->radius_spread,
                            .coordination = CONTACTS,
                            .tolerance = CONTACTS_TOLERANCE};
-    const int helping = s->n_threads / s->n_samples;
     int missing = 0;
     (void)device;
     for (int c = 0; c < s->n_coordinations; ++c)
         missing += count_missing(w, sample, s->coordination[c]);
-    return missing ? brc_beam_sample_pack(context, &shape, &fill, helping > 1 ? helping : 1, &w->sample[sample])
-                   : BRC_OK;
+    return missing ? brc_beam_sample_pack(context, &shape, &fill, 1, &w->sample[sample]) : BRC_OK;
 }
 
 static brc_status keep(work *w, brc_context *context, const void *result)

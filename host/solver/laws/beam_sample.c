@@ -126,7 +126,8 @@ static void evaluate(const brc_domain *d, int32_t set[3][2], int axis, const dou
 }
 
 /* Multigrid pays where solves take long: diagonal blocks want some 1.5 iterations a digit and element along an edge,
- * and its levels cost as much as 350 of those to make (bench/results/2026-11-26-2cores-calibrate.csv). */
+ * and its levels cost as much as 350 of those to make (bench/results/2026-11-26-2cores-calibrate.csv). Rigid parts
+ * leave a third of them, for what ten cost (bench/results/2026-11-27-campaign.md). */
 static brc_preconditioner_kind preconditioner_of(const brc_domain *domain, double tolerance)
 {
     const double iterations = -1.5 * cbrt((double)domain->n_elements) * log10(tolerance);
