@@ -284,7 +284,8 @@ typedef enum brc_time_step_rule {
 typedef enum brc_preconditioner_kind {
     BRC_PRECONDITIONER_AUTO,      /* multigrid from 500 elements on */
     BRC_PRECONDITIONER_MULTIGRID, /* of bodies of any size */
-    BRC_PRECONDITIONER_BLOCKS     /* the diagonal block of each element */
+    BRC_PRECONDITIONER_BLOCKS,    /* the diagonal block of each element */
+    BRC_PRECONDITIONER_PARTS      /* and of beams a few parts of the body moved as rigid ones; no scene asks for it */
 } brc_preconditioner_kind;
 
 typedef struct brc_stage {

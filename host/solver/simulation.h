@@ -166,6 +166,11 @@ typedef struct brc_static_report {
     int64_t multigrid_bytes;
 } brc_static_report;
 brc_static_report brc_simulation_static_report(const brc_simulation *simulation);
+/* Of beams: displacement [m] and small rotation [rad] of every element [n_elements][6]. */
+brc_status brc_simulation_static_state(brc_simulation *simulation, double *out);
+/* Such states of the same loads on other stiffness: static solves of the linear law begin from the mixture of all n
+ * that has the least energy of the error. Borrowed while stages run; n 0: none, as at first. */
+void brc_simulation_know_states(brc_simulation *simulation, int32_t n, const double *const *state);
 
 /* Effects that the run contains and leaves out: NULL-terminated lists of static strings such as "dlsm elasticity",
  * "prescribed faces", "traction", "gravity", "mass damping", "several materials", "Tchamwa-Wielgosz". */

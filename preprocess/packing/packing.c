@@ -54,10 +54,12 @@ void brc_pack_free(brc_pack **owned)
     brc_memory_free(pack->force);
     brc_memory_free(pack->cell_start);
     brc_memory_free(pack->member);
+    brc_memory_free(pack->place);
+    brc_memory_free(pack->in_cells);
     brc_memory_free(pack->listed);
     brc_memory_free(pack->block_list);
     brc_memory_free(pack->block_need);
-    brc_memory_free(pack->row_start);
+    brc_memory_free(pack->group_start);
     brc_memory_free(pack->neighbour);
     brc_memory_free(pack->depth_bound);
     brc_memory_free(pack->wall_row);
@@ -80,9 +82,11 @@ static brc_status make_room(brc_context *context, const brc_solid *solid, int64_
     BRC_TRY(BRC_ALLOCATE(context, &pack->sphere, n, what));
     BRC_TRY(BRC_ALLOCATE(context, &pack->velocity, n, what));
     BRC_TRY(BRC_ALLOCATE(context, &pack->force, n, what));
-    BRC_TRY(BRC_ALLOCATE(context, &pack->member, n, what));
+    BRC_TRY(BRC_ALLOCATE(context, &pack->member, n + BRC_PACK_PIECE, what));
+    BRC_TRY(BRC_ALLOCATE(context, &pack->place, n, what));
+    BRC_TRY(BRC_ALLOCATE(context, &pack->in_cells, 4 * (n + BRC_PACK_PIECE), what));
     BRC_TRY(BRC_ALLOCATE(context, &pack->listed, n, what));
-    BRC_TRY(BRC_ALLOCATE(context, &pack->row_start, n + pack->n_blocks, what));
+    BRC_TRY(BRC_ALLOCATE(context, &pack->group_start, n / BRC_PACK_LANES + 2 * pack->n_blocks, what));
     BRC_TRY(BRC_ALLOCATE(context, &pack->depth_bound, n, what));
     BRC_TRY(BRC_ALLOCATE(context, &pack->wall_row, n, what));
     BRC_TRY(BRC_ALLOCATE(context, &pack->block_list, pack->n_blocks + 1, what));

@@ -36,54 +36,38 @@ static void add_sums(brc_pack_sums *to, const brc_pack_sums *sums)
     to->wall_contacts += sums->wall_contacts;
 }
 
-/* The force on sphere i from its contacts. */
-static void add_contacts(const brc_pack *pack, int64_t i, double force[3], brc_pack_sums *sums)
+/* Forces of block b. */
+static brc_pack_sums block_forces(brc_pack *pack, int64_t b, brc_pack_add_contacts *add_contacts)
 {
-    const double *const a = pack->sphere[i];
-    const int64_t *const row = pack->row_start + i + i / BRC_PACK_BLOCK;
-    const int32_t *const end = pack->neighbour + row[1];
-    double fx = 0.0, fy = 0.0, fz = 0.0, energy = 0.0, contact_force = 0.0, overlap_sum = 0.0;
-    int64_t n = 0;
-    for (const int32_t *j = pack->neighbour + row[0]; j < end; ++j) {
-        const double *const b = pack->sphere[*j];
-        const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], touch = a[3] + b[3];
-        const double square = x * x + y * y + z * z;
-        if (square >= touch * touch || square == 0.0) continue;
-        const double inv = 1.0 / sqrt(square), relative = touch * inv - 1.0, overlap = relative * square * inv;
-        fx -= relative * x;
-        fy -= relative * y;
-        fz -= relative * z;
-        energy += overlap * overlap;
-        contact_force += overlap;
-        overlap_sum += relative;
-        ++n;
-    }
-    force[0] = fx;
-    force[1] = fy;
-    force[2] = fz;
-    sums->energy += 0.25 * energy; /* every contact is met from both sides */
-    sums->contact_force += contact_force;
-    sums->overlap += overlap_sum;
-    sums->contact_ends += n;
-}
-
-brc_pack_sums brc_pack_forces(brc_pack *pack, const double (**force)[3])
-{
-    if (force) *force = (const double(*)[3])pack->force;
-#pragma omp parallel for schedule(static) num_threads(pack->n_threads)
-    for (int64_t b = 0; b < pack->n_blocks; ++b) {
-        brc_pack_sums sums = {0};
-        const int64_t end = (b + 1) * BRC_PACK_BLOCK < pack->n ? (b + 1) * BRC_PACK_BLOCK : pack->n;
-        for (int64_t i = b * BRC_PACK_BLOCK; i < end; ++i) {
+    brc_pack_sums sums = {0};
+    const int64_t end = (b + 1) * BRC_PACK_BLOCK < pack->n ? (b + 1) * BRC_PACK_BLOCK : pack->n;
+    for (int64_t first = b * BRC_PACK_BLOCK; first < end; first += BRC_PACK_LANES) {
+        brc_pack_contact_sums contacts;
+        add_contacts(pack, first / BRC_PACK_LANES, &contacts);
+        for (int l = 0; l < BRC_PACK_LANES && first + l < end; ++l) {
+            const int64_t i = first + l;
             double *const f = pack->force[i], *const v = pack->velocity[i];
-            add_contacts(pack, i, f, &sums);
+            memcpy(f, contacts.force[l], sizeof contacts.force[l]);
+            sums.energy += 0.25 * contacts.energy[l]; /* every contact is met from both sides */
+            sums.contact_force += contacts.contact_force[l];
+            sums.overlap += contacts.overlap[l];
+            sums.contact_ends += contacts.n[l];
             brc_pack_add_walls(pack, i, f, &sums);
             sums.power += f[0] * v[0] + f[1] * v[1] + f[2] * v[2];
             sums.force_square += f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
             sums.velocity_square += v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         }
-        pack->block[b] = sums;
     }
+    return sums;
+}
+
+brc_pack_sums brc_pack_forces(brc_pack *pack, const double (**force)[3])
+{
+    brc_pack_add_contacts *const add_contacts = brc_pack_contacts_of_group();
+    if (force) *force = (const double(*)[3])pack->force;
+#pragma omp parallel for schedule(static) num_threads(pack->n_threads)
+    for (int64_t b = 0; b < pack->n_blocks; ++b)
+        pack->block[b] = block_forces(pack, b, add_contacts);
     brc_pack_sums all = {0};
     for (int64_t b = 0; b < pack->n_blocks; ++b)
         add_sums(&all, pack->block + b);
@@ -94,12 +78,14 @@ int brc_pack_contacts(const brc_pack *pack, int64_t i, const int8_t *counts)
 {
     const double *const a = pack->sphere[i];
     const int32_t *other;
-    const int64_t n_others = brc_pack_neighbours(pack, i, &other);
+    int64_t step;
+    const int64_t n_others = brc_pack_neighbours(pack, i, &other, &step);
     int n = brc_pack_wall_contacts(pack, i);
     for (int64_t k = 0; k < n_others; ++k) {
-        const double *const b = pack->sphere[other[k]];
+        const int32_t j = other[k * step];
+        const double *const b = pack->sphere[j];
         const double x = b[0] - a[0], y = b[1] - a[1], z = b[2] - a[2], touch = a[3] + b[3];
-        n += counts[other[k]] && x * x + y * y + z * z < touch * touch;
+        n += counts[j] && x * x + y * y + z * z < touch * touch;
     }
     return n;
 }
@@ -133,7 +119,7 @@ static double move(brc_pack *pack, double back, double keep, double push, double
                 x[c] += shorten * way[c];
                 since += (x[c] - from[c]) * (x[c] - from[c]);
             }
-            moved = fmax(moved, since);
+            moved = since > moved ? since : moved;
         }
         pack->block_moved[b] = moved;
     }

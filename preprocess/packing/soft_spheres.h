@@ -32,11 +32,11 @@ void brc_pack_scale(brc_pack *pack, double factor);
 /* [n] x, y, z, radius [m]; what moves them makes the lists anew. */
 double (*brc_pack_spheres(brc_pack *pack))[4];
 
-/* Make the lists of neighbours and walls at the present positions and radii. A centre outside the solid goes back to
- * where it was when the list was last made, or put. */
+/* Make the lists of neighbours (those nearer than R_i + R_j + skin) and walls at the present positions and radii. A
+ * centre outside the solid goes back to where it was when the list was last made, or put. */
 brc_status brc_pack_list(brc_pack *pack, double skin);
-/* Those that are nearer than R_i + R_j + skin, in *out; returns how many. */
-int64_t brc_pack_neighbours(const brc_pack *pack, int64_t i, const int32_t **out);
+/* Those of sphere i, in (*out)[0], (*out)[*step], ...; returns how many. */
+int64_t brc_pack_neighbours(const brc_pack *pack, int64_t i, const int32_t **out, int64_t *step);
 /* Walls that sphere i touches. */
 int brc_pack_wall_contacts(const brc_pack *pack, int64_t i);
 /* One pass over the forces at the present positions; the lists must be good there. force: [n] those [m], or NULL. */

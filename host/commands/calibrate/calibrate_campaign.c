@@ -61,12 +61,44 @@ static bool same(const void *row, const void *wanted)
            a->beam_young == b->beam_young;
 }
 
-static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, void *row)
+/* States of the pulls along one axis, those of each E_m. */
+typedef struct kept_states {
+    int axis, n;
+    double young[BRC_CALIBRATE_LIST];
+    brc_beam_states states[BRC_CALIBRATE_LIST];
+} kept_states;
+
+static void forget(void **kept)
+{
+    kept_states *k = *kept;
+    for (int i = 0; i < k->n; ++i)
+        brc_beam_states_free(&k->states[i]);
+    brc_memory_free(k);
+    *kept = NULL;
+}
+
+/* Those that a pull begins from: tests run over E_m, then radii, then axes. */
+static brc_status states_of(brc_context *context, const brc_calibration_row *r, void **kept, brc_beam_states **out)
+{
+    if (*kept && ((kept_states *)*kept)->axis != r->axis) forget(kept);
+    if (!*kept) BRC_TRY(brc_memory_allocate(context, kept, 1, sizeof(kept_states), "states of a sample"));
+    kept_states *k = *kept;
+    int i = 0;
+    while (i < k->n && k->young[i] != r->beam_young)
+        ++i;
+    if (i == k->n) k->young[k->n++] = r->beam_young;
+    k->axis = r->axis;
+    *out = &k->states[i];
+    return BRC_OK;
+}
+
+static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, void *row, void **kept)
 {
     brc_calibration_row *r = row;
     brc_beam_answer answer;
-    const brc_beam_pull pull = {
+    brc_beam_pull pull = {
         .axis = r->axis, .radius = r->radius, .beam_poisson = BEAM_POISSON, .beam_young = r->beam_young};
+    BRC_TRY(states_of(context, r, kept, &pull.states));
     BRC_TRY(brc_beam_sample_pull(context, device, domain, &pull, &answer));
     r->young = answer.young;
     r->poisson = answer.poisson;
@@ -105,7 +137,8 @@ brc_status brc_calibrate_campaign(brc_context *context, const brc_calibration_pl
                                                   .compare = compare,
                                                   .print = print_line,
                                                   .parse = parse_line,
-                                                  .test = test};
+                                                  .test = test,
+                                                  .forget = forget};
     brc_sample_campaign_rows rows;
     const brc_status status = brc_sample_campaign_run(context, &kind, plan, plan, folder, resume, &rows);
     *out = (brc_calibration_rows){.n = rows.n, .capacity = rows.capacity, .rows = rows.row};

@@ -2,6 +2,7 @@
 #include "../../base/file.h"
 #include "../../base/memory.h"
 #include <errno.h>
+#include <malloc.h>
 #include <string.h>
 
 #define FILE_BYTES_MOST ((size_t)1 << 30)
@@ -25,11 +26,23 @@ static bool failed(first_failure *first)
     return status != BRC_OK;
 }
 
+/* Every run frees what the next one asks for again: kept, it does not come anew and zeroed from the system, which takes
+ * a sixth of a campaign. */
+static void keep_memory(void)
+{
+#ifdef __GLIBC__
+    enum { MOST_KEPT = 1 << 30, LEAST_ALONE = 32 << 20 };
+    (void)mallopt(M_TRIM_THRESHOLD, MOST_KEPT);
+    (void)mallopt(M_MMAP_THRESHOLD, LEAST_ALONE);
+#endif
+}
+
 brc_status brc_ensemble_each(brc_context *context, int n_threads, int64_t n_tasks, brc_ensemble_task run, void *self)
 {
     first_failure first = {.context = context, .status = BRC_OK};
     const int together = n_tasks < n_threads ? (int)n_tasks : n_threads;
     if (n_tasks < 1) return BRC_OK;
+    keep_memory();
 #pragma omp parallel num_threads(together)
     {
         brc_context *own = brc_context_create();

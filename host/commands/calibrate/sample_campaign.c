@@ -120,17 +120,23 @@ static brc_status test_all(void *self, brc_context *context, brc_device *device,
     const int64_t sample = task % w->samples->n_samples;
     const double coordination = w->samples->coordination[task / w->samples->n_samples];
     brc_domain *domain = NULL;
+    void *kept = NULL;
     brc_status status = BRC_OK;
-    if (count_missing(w, sample, coordination) == 0) return BRC_OK;
+    int missing = count_missing(w, sample, coordination);
+    if (missing == 0) return BRC_OK;
     BRC_TRY(brc_beam_sample_bond(context, w->sample[sample], coordination, false, 1, &domain));
-    for (int k = 0; k < w->kind->count(w->plan); ++k) {
+    for (int k = 0; missing > 0; ++k) {
         row now;
         key_of(w, sample, coordination, k, &now);
-        if (find(w, &now)) continue;
-        BRC_TRY_OR(cleanup, w->kind->test(context, device, domain, &now));
+        const bool there = find(w, &now) != NULL;
+        if (there && !w->kind->forget) continue;
+        BRC_TRY_OR(cleanup, w->kind->test(context, device, domain, &now, &kept));
+        if (there) continue;
         BRC_TRY_OR(cleanup, keep(w, context, &now));
+        --missing;
     }
 cleanup:
+    if (kept) w->kind->forget(&kept);
     brc_domain_free(&domain);
     return status;
 }

@@ -20,8 +20,12 @@ typedef struct brc_sample_campaign_kind {
     int (*compare)(const void *left, const void *right);     /* order of the results */
     void (*print)(const void *row, char *line, size_t room); /* with newline */
     bool (*parse)(const char *line, void *row);              /* a whole line without newline; false: it is no result */
-    brc_status (*test)(brc_context *context, brc_device *device, const brc_domain *domain,
-                       void *row); /* the result of the keys in row */
+    /* The result of the keys in row. *kept: of the kind's own, NULL before the first test of one sample at one
+     * coordination number. */
+    brc_status (*test)(brc_context *context, brc_device *device, const brc_domain *domain, void *row, void **kept);
+    /* Frees it. NULL: tests keep nothing. Where they do, those that are there already are made again before one that is
+     * not, so that it has the same bits. */
+    void (*forget)(void **kept);
 } brc_sample_campaign_kind;
 
 /* Results. `row` begins a list of structs of the kind. */

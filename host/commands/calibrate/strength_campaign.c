@@ -71,8 +71,9 @@ static bool same(const void *row, const void *wanted)
            a->beam_young == b->beam_young && a->limit == b->limit && a->passages == b->passages;
 }
 
-static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, void *row)
+static brc_status test(brc_context *context, brc_device *device, const brc_domain *domain, void *row, void **kept)
 {
+    (void)kept;
     brc_strength_row *r = row;
     brc_strength_answer answer;
     const brc_strength_pull pull = {.axis = r->axis,

@@ -6,7 +6,8 @@
 extern const brc_field_table brc_state_fields, brc_geometry_fields, brc_solve_fields, brc_mode_fields, brc_power_fields,
     brc_multigrid_fields, brc_multigrid_ground_fields, brc_multigrid_law_fields, brc_multigrid_coarsest_fields,
     brc_multigrid_finest_fields, brc_multigrid_aggregate_fields, brc_multigrid_level_fields,
-    brc_multigrid_matrix_fields, brc_multigrid_transfer_fields, brc_multigrid_start_fields, brc_multigrid_coarse_fields;
+    brc_multigrid_matrix_fields, brc_multigrid_transfer_fields, brc_multigrid_start_fields, brc_multigrid_coarse_fields,
+    brc_rigid_parts_fields;
 static const brc_field_table *const of_runs[] = {&brc_state_fields,
                                                  &brc_geometry_fields,
                                                  &brc_solve_fields,
@@ -23,6 +24,7 @@ static const brc_field_table *const of_runs[] = {&brc_state_fields,
                                                  &brc_multigrid_transfer_fields,
                                                  &brc_multigrid_start_fields,
                                                  &brc_multigrid_coarse_fields,
+                                                 &brc_rigid_parts_fields,
                                                  NULL};
 
 /* The k-th of the tables, or NULL and k less by their number. */

@@ -18,6 +18,7 @@ typedef struct work {
     const brc_beam_law *law;
     double body, reading;            /* of the body; its brc_beam_law_reading */
     double *sample, *sample_reading; /* [n_samples] */
+    brc_beam_states *states;         /* [n_samples][n_axes] of tests before */
 } work;
 
 /* nu and E / E_m of the body, from those of the samples. */
@@ -30,7 +31,10 @@ static brc_status test(const work *w, double radius, double *nu, double *ratio)
     for (int k = 0; k < request->n_samples; ++k)
         for (int axis = 0; axis < request->n_axes; ++axis) {
             brc_beam_answer answer;
-            const brc_beam_pull pull = {.axis = axis, .radius = radius, .beam_poisson = request->beam_poisson};
+            const brc_beam_pull pull = {.axis = axis,
+                                        .radius = radius,
+                                        .beam_poisson = request->beam_poisson,
+                                        .states = &w->states[k * request->n_axes + axis]};
             BRC_TRY(brc_beam_sample_pull(w->context, w->device, request->samples[k], &pull, &answer));
             *nu += share * (answer.poisson - brc_beam_law_poisson(w->law, w->sample[k], radius));
             *ratio += share * answer.young / (brc_beam_law_young(w->law, w->sample[k], radius) * w->sample_reading[k]);
@@ -81,6 +85,7 @@ brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_p
     memset(out, 0, sizeof *out);
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample, request->n_samples, "samples of a polish"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.sample_reading, request->n_samples, "samples of a polish"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &w.states, request->n_samples * request->n_axes, "samples of a polish"));
     BRC_TRY_OR(cleanup, prepare(&w, &body));
     BRC_TRY_OR(cleanup, brc_beam_law_invert(context, w.law, &body, poisson, request->young, &out->law_radius,
                                             &out->law_beam_young, NULL));
@@ -110,6 +115,9 @@ brc_status brc_beam_polish(brc_context *context, brc_device *device, const brc_p
         brc_log(context, BRC_LOG_WARNING, "polish: nu = %.5g after %d tests, asked %.5g: the sample hardly reaches it",
                 nu, out->n_tests, poisson);
 cleanup:
+    for (int k = 0; w.states && k < request->n_samples * request->n_axes; ++k)
+        brc_beam_states_free(&w.states[k]);
+    brc_memory_free(w.states);
     brc_memory_free(w.sample);
     brc_memory_free(w.sample_reading);
     return status;

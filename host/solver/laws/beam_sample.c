@@ -126,11 +126,30 @@ static void evaluate(const brc_domain *d, int32_t set[3][2], int axis, const dou
 }
 
 /* Multigrid pays where solves take long: diagonal blocks want some 1.5 iterations a digit and element along an edge,
- * and its levels cost as much as 350 of those to make (bench/results/2026-11-26-2cores-calibrate.csv). */
+ * and its levels cost as much as 350 of those to make (bench/results/2026-11-26-2cores-calibrate.csv). Rigid parts
+ * leave a third of them, for what ten cost (bench/results/2026-11-27-campaign.md). */
 static brc_preconditioner_kind preconditioner_of(const brc_domain *domain, double tolerance)
 {
     const double iterations = -1.5 * cbrt((double)domain->n_elements) * log10(tolerance);
-    return iterations < 350 ? BRC_PRECONDITIONER_BLOCKS : BRC_PRECONDITIONER_AUTO;
+    return iterations < 350 ? BRC_PRECONDITIONER_PARTS : BRC_PRECONDITIONER_AUTO;
+}
+
+void brc_beam_states_free(brc_beam_states *states)
+{
+    for (int32_t k = 0; k < states->n; ++k)
+        brc_memory_free(states->state[k]);
+    *states = (brc_beam_states){0};
+}
+
+static brc_status keep_state(brc_context *context, brc_simulation *simulation, brc_beam_states *states)
+{
+    double *newest = states->n == BRC_BEAM_STATES ? states->state[--states->n] : NULL;
+    if (!newest)
+        BRC_TRY(
+            BRC_ALLOCATE(context, &newest, 6 * brc_simulation_domain(simulation)->n_elements, "states of a sample"));
+    memmove(states->state + 1, states->state, (size_t)states->n++ * sizeof *states->state);
+    states->state[0] = newest;
+    return brc_simulation_static_state(simulation, newest);
 }
 
 brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const brc_domain *domain,
@@ -179,6 +198,8 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
         .output = {.n_frames = -1}};
     BRC_LOCAL(context, 3 * domain->n_elements, double, displacement, "displacements");
     BRC_TRY(brc_simulation_create(context, &scene, domain, device, &simulation));
+    if (pull->states)
+        brc_simulation_know_states(simulation, pull->states->n, (const double *const *)pull->states->state);
     BRC_TRY(brc_simulation_run(simulation));
     BRC_TRY(brc_simulation_displacement(simulation, displacement));
     BRC_TRY(brc_simulation_reaction(simulation, set[axis][1], reaction));
@@ -190,6 +211,7 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
     for (int64_t e = 0; e < domain->n_elements; ++e)
         out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
     out->iterations = brc_simulation_static_report(simulation).iterations;
+    if (pull->states) BRC_TRY(keep_state(context, simulation, pull->states));
     out->seconds = brc_clock_s() - start;
     return BRC_OK;
 }

@@ -19,6 +19,14 @@ void brc_beam_sample_free(brc_beam_sample **sample);
 brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sample, double coordination, bool balanced,
                                 int n_threads, brc_domain **out);
 
+/* States of earlier pulls of one domain along one axis, with the same E_m. Zeroed: none yet. */
+enum { BRC_BEAM_STATES = 5 };
+typedef struct brc_beam_states {
+    int32_t n;
+    double *state[BRC_BEAM_STATES]; /* [n] owned; the last comes first */
+} brc_beam_states;
+void brc_beam_states_free(brc_beam_states *states);
+
 typedef struct brc_beam_pull {
     int axis;            /* 0 x 1 y 2 z: the walls "<axis>-" and "<axis>+" are moved apart, all other walls are free */
     double radius;       /* r_m: beam radius over the mean radius of the packed spheres [-] */
@@ -26,6 +34,8 @@ typedef struct brc_beam_pull {
     double beam_young;   /* E_m [Pa]; 0: 1 Pa. The answer is the same but for rounding */
     double tolerance;    /* residual over load; 0: 1e-5, which moves E by up to 3e-5 and nu by 1e-5 of themselves
                             (docs/notebook/beams-calibration.md) */
+    brc_beam_states *states; /* the solve begins from what mixes them best, and its own state is kept with the last of
+                                them; NULL: from no load */
 } brc_beam_pull;
 
 typedef struct brc_beam_answer {

@@ -64,10 +64,11 @@ static brc_status begin(brc_simulation *s, brc_solve_vectors *v, bool rotations,
     return brc_unknowns_dot(s, v->r, v->z, 1, rz);
 }
 
-/* Multigrid puts rigid motions that the supports leave free into x, which K does not see: they are taken off. */
+/* Multigrid and rigid parts put rigid motions that the supports leave free into x, which K does not see: they are taken
+ * off. */
 static brc_status remove_free_motions(brc_simulation *s, brc_solve_vectors *v)
 {
-    if (!v->pieces.any || !v->preconditioner.multigrid) return BRC_OK;
+    if (!v->pieces.any || !(v->preconditioner.multigrid || v->preconditioner.parts)) return BRC_OK;
     return brc_statics_project_free_motions(s, v, v->x);
 }
 

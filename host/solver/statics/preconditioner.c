@@ -19,6 +19,7 @@ brc_status brc_preconditioner_apply(brc_simulation *s, brc_solve_vectors *v, boo
         BRC_TRY(brc_vector_blocks6(s, v->preconditioner.blocks, v->r.move, v->r.turn, v->z.move, v->z.turn));
     else
         BRC_TRY(brc_vector_blocks(s, v->preconditioner.blocks, v->r.move, v->z.move));
+    if (v->preconditioner.parts && !rotations) BRC_TRY(brc_rigid_parts_add(v->preconditioner.parts, v->r, v->z));
     if (v->z.turn) BRC_TRY(brc_constrain(s, NULL, v->z.turn));
     return rotations ? BRC_OK : brc_constrain(s, v->z.move, NULL);
 }
@@ -43,7 +44,9 @@ brc_status brc_preconditioner_prepare(brc_simulation *s, brc_solve_vectors *v)
 {
     brc_preconditioner *p = &v->preconditioner;
     const brc_preconditioner_kind kind = brc_current_stage(s)->preconditioner;
-    if (p->multigrid || p->blocks_alone || kind == BRC_PRECONDITIONER_BLOCKS) return BRC_OK;
+    if (p->multigrid || p->parts || p->blocks_alone || kind == BRC_PRECONDITIONER_BLOCKS) return BRC_OK;
+    if (kind == BRC_PRECONDITIONER_PARTS)
+        return brc_rigid_parts_suit(s) ? brc_rigid_parts_create(s, &p->parts) : BRC_OK;
     if (kind == BRC_PRECONDITIONER_AUTO && s->domain->n_elements < BRC_MULTIGRID_LEAST) return BRC_OK;
     const bool resumed = p->origin.weight > 0;
     BRC_TRY(brc_multigrid_create(s, &p->origin, &p->multigrid));

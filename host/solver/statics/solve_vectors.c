@@ -58,4 +58,5 @@ void brc_solve_vectors_free(brc_solve_vectors *v)
     brc_fields_free(&brc_solve_fields, v);
     brc_pieces_free(&v->pieces);
     brc_multigrid_free(&v->preconditioner.multigrid);
+    brc_rigid_parts_free(&v->preconditioner.parts);
 }

@@ -231,6 +231,11 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
     v->gives_way = false;
     BRC_TRY(brc_statics_residual(s, v, finite, &norm));
     if (norm > *reference) *reference = norm;
+    if (s->statics->n_known > 0 && !finite && brc_solves_rotations(s->model)) {
+        BRC_TRY(brc_statics_mix_known(s, v));
+        BRC_TRY(correct(s, v, false));
+        BRC_TRY(brc_statics_residual(s, v, false, &norm));
+    }
     for (int correction = 0; norm > tolerance * *reference; ++correction) {
         const bool near = norm < 100 * tolerance * *reference;
         if (finite && !near && !v->tangent && wants_tangent(s, v, correction, norm, last)) {

@@ -4,6 +4,7 @@
 
 #include "../../base/log.h"
 #include "pieces.h"
+#include "rigid_parts.h"
 #include "../core/solver.h"
 #include "../core/trial_budget.h"
 #include "multigrid/multigrid.h"
@@ -14,6 +15,8 @@ struct brc_statics {
     brc_static_report report;
     double *modes;
     int32_t n_modes;
+    int32_t n_known; /* states that a solve may begin from, borrowed */
+    const double *const *known;
     double margin, largest_load; /* of the events of a stage; margin 0: none yet */
     double released;             /* elastic energy beyond that of the broken bonds that events set free [J] */
 };
@@ -23,9 +26,10 @@ typedef struct brc_preconditioner {
     brc_buffer *blocks;       /* inverses [n_rows][6], cbm [n_rows][21] */
     brc_multigrid *multigrid; /* NULL: blocks, or not made yet */
     brc_multigrid_origin origin;
-    bool blocks_alone; /* multigrid failed in this stage */
-    bool bonds_broke;  /* since multigrid was made */
-    double pace;       /* iterations for each digit of the residual in the first solve with it; 0: none yet */
+    brc_rigid_parts *parts; /* beside blocks; NULL: none, or not made yet */
+    bool blocks_alone;      /* multigrid failed in this stage */
+    bool bonds_broke;       /* since multigrid was made */
+    double pace;            /* iterations for each digit of the residual in the first solve with it; 0: none yet */
 } brc_preconditioner;
 
 /* Device vectors of a linear solve K x = r; zero only for dlsm-published, orientation for models with rotations, theta
@@ -58,6 +62,9 @@ brc_status brc_statics_project_free_motions(brc_simulation *s, const brc_solve_v
 brc_status brc_statics_scale(brc_simulation *s, brc_solve_vectors *v, double factor);
 /* The pieces of the body as it is now, for the solves to come. */
 brc_status brc_statics_find_pieces(brc_simulation *s, brc_solve_vectors *v);
+/* v->x becomes what leads from the state, whose residual is in the simulation's own arrays, to the best mixture of
+ * known states (known_states.c). */
+brc_status brc_statics_mix_known(brc_simulation *s, brc_solve_vectors *v);
 /* The largest failure ratio of all parts; NAN where one is not finite. */
 brc_status brc_statics_failure(int32_t n, brc_simulation *const *part, double *ratio);
 /* The refusals of a key that scales the loads of the stage: BRC_BAD_INPUT. */

@@ -14,6 +14,27 @@ void brc_statics_free(brc_simulation *s)
 
 BRC_READ(brc_static_report, brc_simulation_static_report, s->statics->report)
 
+brc_status brc_simulation_static_state(brc_simulation *s, double *out)
+{
+    const int64_t n = s->domain->n_elements;
+    BRC_LOCAL(s->context, 3 * n, double, move, "states");
+    BRC_LOCAL(s->context, 4 * n, double, q, "states");
+    BRC_TRY(brc_simulation_displacement(s, move));
+    BRC_TRY(brc_simulation_orientation(s, q, NULL));
+    for (int64_t e = 0; e < n; ++e)
+        for (int c = 0; c < 3; ++c) {
+            out[6 * e + c] = move[3 * e + c];
+            out[6 * e + 3 + c] = 2 * q[4 * e + 1 + c] / q[4 * e];
+        }
+    return BRC_OK;
+}
+
+void brc_simulation_know_states(brc_simulation *s, int32_t n, const double *const *state)
+{
+    s->statics->n_known = n;
+    s->statics->known = state;
+}
+
 const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
 {
     *n = s->statics->n_modes;

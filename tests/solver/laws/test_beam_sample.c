@@ -180,6 +180,38 @@ static void nu_falls_and_e_grows_with_the_radius(void **state)
     close_bench(&b);
 }
 
+/* Pulls with other radii begin from the ones before: the same answers to what the tolerance leaves, in fewer
+ * iterations; more of them than are kept. The same radius again needs none. */
+static void pulls_begin_from_those_before(void **state)
+{
+    (void)state;
+    static const double radii[] = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+    bench b;
+    open_bench(&b, 1);
+    pack(&b, 1500, 8);
+    brc_beam_states states = {0};
+    brc_beam_answer answer, alone;
+    for (size_t k = 0; k < sizeof radii / sizeof *radii; ++k) {
+        brc_beam_pull pull = {.axis = 1, .radius = radii[k], .beam_poisson = 0.3};
+        done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &pull, &alone));
+        pull.states = &states;
+        done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &pull, &answer));
+        assert_true(fabs(answer.young / alone.young - 1) < 1e-4);
+        assert_true(fabs(answer.poisson / alone.poisson - 1) < 1e-4);
+        if (k == 0)
+            assert_int_equal(answer.iterations, alone.iterations);
+        else
+            assert_true(answer.iterations < alone.iterations);
+    }
+    assert_true(2 * answer.iterations < alone.iterations);
+    assert_int_equal(states.n, BRC_BEAM_STATES);
+    const brc_beam_pull again = {.axis = 1, .radius = 0.8, .beam_poisson = 0.3, .states = &states};
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &again, &answer));
+    assert_int_equal(answer.iterations, 0);
+    brc_beam_states_free(&states);
+    close_bench(&b);
+}
+
 static void a_sample_without_walls_is_refused_with_the_wall_by_name(void **state)
 {
     (void)state;
@@ -254,6 +286,7 @@ int main(void)
         cmocka_unit_test(answers_are_the_same_bytes_for_any_number_of_threads),
         cmocka_unit_test(the_default_tolerance_is_as_good_as_its_header_says),
         cmocka_unit_test(nu_falls_and_e_grows_with_the_radius),
+        cmocka_unit_test(pulls_begin_from_those_before),
         cmocka_unit_test(a_sample_without_walls_is_refused_with_the_wall_by_name),
         cmocka_unit_test(a_sample_of_another_fill_is_refused),
         cmocka_unit_test(balanced_bonds_make_the_axes_more_alike),

@@ -5,6 +5,7 @@
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "../../effects/fracture/breaking.h"
+#include "../../core/sym6.h"
 #include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
@@ -178,8 +179,7 @@ brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out)
         memset(to, 0, 21 * sizeof *to);
         if (e < 0 || s->domain->row_start[e + 1] == s->domain->row_start[e]) continue;
         diagonal_block(s, e, k);
-        if (LAPACKE_dpotrf_work(LAPACK_ROW_MAJOR, 'U', 6, &k[0][0], 6) != 0 ||
-            LAPACKE_dpotri_work(LAPACK_ROW_MAJOR, 'U', 6, &k[0][0], 6) != 0) {
+        if (!brc_sym6_invert(k)) {
             ++failed;
             continue;
         }
