@@ -155,7 +155,7 @@ static double *dense_matrix(bench_case *c, brc_multigrid *m, int64_t n)
         unit[k % (n / 2)] = 1;
         assert_done(c, brc_upload_state(c->simulation, to, unit, 3 * rows));
         unit[k % (n / 2)] = 0;
-        assert_done(c, brc_level_residual(m, 0, x, (brc_unknowns){NULL, NULL}, out));
+        assert_done(c, brc_multigrid_residual(m, x, (brc_unknowns){NULL, NULL}, out));
         assert_done(c, brc_upload_state(c->simulation, to, unit, 3 * rows));
         assert_done(c, brc_download(c->simulation, out.move, 8, a + k * n, n / 2));
         assert_done(c, brc_download(c->simulation, out.turn, 8, a + k * n + n / 2, n / 2));
@@ -207,7 +207,7 @@ static void cycles_converge_to_a_dense_solve(void **state)
     assert_done(&c, brc_download(c.simulation, b.turn, 8, exact + n / 2, n / 2));
     solve_dense(n, a, exact);
     for (int k = 0; k < CYCLES; ++k) { /* x += M (b - A x) */
-        assert_done(&c, brc_level_residual(m, 0, x, b, r));
+        assert_done(&c, brc_multigrid_residual(m, x, b, r));
         assert_done(&c, brc_multigrid_apply(m, r, z));
         assert_done(&c, brc_unknowns_add(c.simulation, 1, z, x));
     }
