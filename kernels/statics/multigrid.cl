@@ -1,8 +1,8 @@
 /* Multigrid as preconditioner of static solves (host/solver/statics/multigrid): residuals, steps and transfers between
  * levels. A node of a level has a displacement move [n][3] and a rotation turn [n][3], forces and torques likewise; of
  * coarser levels that swell (swells 1) also a swelling swell [n], u = swell (x - centre), and what works on it, the
- * virial [n]. A block of these has its 36 numbers of the first six unknowns, by columns, then the six that swelling does
- * to them, the six that they do to swelling, and its own. Each work-item gathers and writes its own node. */
+ * virial [n]. A block of these has its 36 numbers of the first six unknowns, by columns, then the six that swelling
+ * does to them, the six that they do to swelling, and its own. Each work-item gathers and writes its own node. */
 
 /* out = right - A x of the finest level of cells: its bonds from area vectors and L/S, or from branches and areas
  * (by_branch). moduli_of [n][3]: with several materials. n_right: right sides there are: 0 none, 1 forces, 2 forces and
@@ -147,8 +147,8 @@ KERNEL void multigrid_matrix(int n, int swells, OWN(int) start, OWN(int) column,
     }
 }
 
-/* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21], row by row; where nodes swell [n][28], the column of swelling
- * last. n_right as above: a missing torque is zero. */
+/* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21], row by row; where nodes swell [n][28], the column of
+ * swelling last. n_right as above: a missing torque is zero. */
 KERNEL void multigrid_step(int n, int swells, state weight, int add, OWN(state) inverse, int n_right, OWN(state) force,
                            OWN(state) torque, OWN(state) virial, UPDATE(state) move, UPDATE(state) turn,
                            UPDATE(state) swell)
@@ -203,7 +203,8 @@ KERNEL void multigrid_collect(int n, int swells, OWN(int) start, OWN(int) member
             for (int k = start[i]; k < start[i + 1]; ++k) {
                 const brc_size at = (brc_size)member[k] * 3;
                 for (int c = 0; c < 3; ++c)
-                    virial += free_bits[member[k]] >> c & 1 ? (state)arm[at + (brc_size)c] * force[at + (brc_size)c] : 0;
+                    virial +=
+                        free_bits[member[k]] >> c & 1 ? (state)arm[at + (brc_size)c] * force[at + (brc_size)c] : 0;
             }
             whole_virial[i] = virial;
         }
@@ -261,8 +262,8 @@ KERNEL void multigrid_prolong(int n, int swells, OWN(int) start, OWN(int) column
 
 /* P^T r: column_start [n + 1] of the places (block, row) [.][2] of each column of P. */
 KERNEL void multigrid_restrict(int n, int swells, OWN(int) column_start, OWN(int) place, GATHER(state) block,
-                               GATHER(state) force, GATHER(state) torque, GATHER(state) virial,
-                               PUT(state) coarse_force, PUT(state) coarse_torque, PUT(state) coarse_virial)
+                               GATHER(state) force, GATHER(state) torque, GATHER(state) virial, PUT(state) coarse_force,
+                               PUT(state) coarse_torque, PUT(state) coarse_virial)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
@@ -294,8 +295,7 @@ KERNEL void multigrid_coarsest(int n, int swells, OWN(state) inverse, GATHER(sta
         for (int j = 0; j < n; ++j) {
             const multigrid_node r = multigrid_load(force, torque, j);
             const state e = swells ? virial[j] : 0;
-            GLOBAL const state *block =
-                inverse + (brc_size)i * each * row_size + (brc_size)j * each;
+            GLOBAL const state *block = inverse + (brc_size)i * each * row_size + (brc_size)j * each;
             for (int a = 0; a < 6; ++a) {
                 GLOBAL const state *row = block + (brc_size)a * row_size;
                 for (int b = 0; b < 6; ++b) y.v[a] += row[b] * r.v[b];

@@ -45,6 +45,6 @@ int32_t brc_fine_ground(const brc_fine *fine, int64_t element);
 double brc_fine_area(const brc_fine *fine, int64_t half_edge);
 /* Add to the matrix of the first aggregates what their motions do to the volumes of cells. */
 brc_status brc_fine_add_volumes(const brc_fine *fine, const int32_t *aggregate, const brc_nodes *coarse,
-                                brc_stored_rows *rows);
+                                const brc_prolongation *p, brc_stored_rows *rows);
 
 #endif

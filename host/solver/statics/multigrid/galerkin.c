@@ -216,17 +216,15 @@ brc_status brc_prolongation_create(brc_context *context, const brc_rows *rows, c
                                    const double *inverse, brc_prolongation *out)
 {
     const smoothing s = {rows, nodes, coarse, aggregate, weight, inverse};
-    *out = (brc_prolongation){.n = rows->n,
-                              .n_coarse = coarse->n,
-                              .unknowns = nodes->unknowns,
-                              .coarse_unknowns = coarse->unknowns};
+    *out = (brc_prolongation){
+        .n = rows->n, .n_coarse = coarse->n, .unknowns = nodes->unknowns, .coarse_unknowns = coarse->unknowns};
     BRC_TRY(BRC_ALLOCATE(context, &out->start, rows->n + 1, "prolongation"));
     BRC_TRY(fill_rows(context, &s, COUNTS, out));
     for (int64_t i = 0; i < rows->n; ++i)
         out->start[i + 1] += out->start[i];
     BRC_TRY(BRC_ALLOCATE(context, &out->column, out->start[rows->n], "prolongation"));
-    BRC_TRY(BRC_ALLOCATE(context, &out->block, out->start[rows->n] * out->unknowns * out->coarse_unknowns,
-                         "prolongation"));
+    BRC_TRY(
+        BRC_ALLOCATE(context, &out->block, out->start[rows->n] * out->unknowns * out->coarse_unknowns, "prolongation"));
     BRC_TRY(fill_rows(context, &s, COLUMNS, out));
     BRC_TRY(fill_rows(context, &s, BLOCKS, out));
     return list_columns(context, out);

@@ -301,12 +301,14 @@ static brc_status make_next(brc_multigrid *m, const brc_fine *f, made_level *mad
     BRC_TRY_OR(cleanup, brc_prolongation_create(s->context, &made->rows, &made->nodes, aggregate, &next.nodes,
                                                 m->level[level].weight, made->inverse, &p));
     BRC_TRY_OR(cleanup, brc_coarse_rows(s->context, &made->rows, &p, &next.stored));
-    if (level == 0 && f->volumes) BRC_TRY_OR(cleanup, brc_fine_add_volumes(f, aggregate, &next.nodes, &next.stored));
+    if (level == 0 && f->volumes)
+        BRC_TRY_OR(cleanup, brc_fine_add_volumes(f, aggregate, &next.nodes, &p, &next.stored));
     if (brc_memory_held() > m->most_held) m->most_held = brc_memory_held();
     BRC_TRY_OR(cleanup, level == 0 ? upload_aggregates(m, &made->nodes, aggregate, &next.nodes)
                                    : upload_prolongation(m, &m->level[level], &p));
     next.rows = brc_rows_of(&next.stored);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &next.inverse, brc_triangle(m->coarse_unknowns) * next.nodes.n, "levels"));
+    BRC_TRY_OR(cleanup,
+               BRC_ALLOCATE(s->context, &next.inverse, brc_triangle(m->coarse_unknowns) * next.nodes.n, "levels"));
     BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &next.rows, NULL, next.inverse));
     BRC_TRY_OR(cleanup, upload_matrix(m, &m->level[m->n_levels++], &next.stored, next.inverse));
     BRC_TRY_OR(cleanup, weigh(m, m->n_levels - 1, 0));

@@ -8,8 +8,8 @@ BRC_WANTED(of_beams, brc_solves_rotations(w->model))
 BRC_WANTED(of_many, w->many_materials && !of_beams(w))
 /* A node of coarser levels. */
 BRC_WANTED(of_swelling, w->listed_unknowns == 7)
-BRC_COUNTED(each_inverse, w->n_listed * (of_swelling(w) ? 28 : 21))
-BRC_COUNTED(each_block, w->n_listed * (of_swelling(w) ? 49 : 36))
+BRC_COUNTED(each_inverse, w->n_listed *(of_swelling(w) ? 28 : 21))
+BRC_COUNTED(each_block, w->n_listed *(of_swelling(w) ? 49 : 36))
 
 #define WORDS "multigrid"
 #define AT(member) BRC_FIELD_AT(brc_multigrid, member)

@@ -16,7 +16,8 @@ static int32_t stored_row(const void *of, int64_t i, int32_t *column, double *bl
 
 brc_rows brc_rows_of(const brc_stored_rows *stored)
 {
-    return (brc_rows){.n = stored->n, .most = stored->most, .unknowns = stored->unknowns, .of = stored, .row = stored_row};
+    return (brc_rows){
+        .n = stored->n, .most = stored->most, .unknowns = stored->unknowns, .of = stored, .row = stored_row};
 }
 
 void brc_stored_rows_free(brc_stored_rows *rows)

@@ -65,11 +65,11 @@ brc_status brc_invert_blocks(brc_context *context, const brc_rows *rows, const u
 typedef struct brc_prolongation {
     int64_t n, n_coarse;
     int unknowns, coarse_unknowns; /* of a node */
-    int64_t *start;        /* [n + 1] */
-    int32_t *column;       /* ascending in a row */
-    float *block;          /* [start[n]][unknowns][coarse_unknowns] */
-    int64_t *column_start; /* [n_coarse + 1] */
-    int32_t (*entry)[2];   /* block and row, by columns */
+    int64_t *start;                /* [n + 1] */
+    int32_t *column;               /* ascending in a row */
+    float *block;                  /* [start[n]][unknowns][coarse_unknowns] */
+    int64_t *column_start;         /* [n_coarse + 1] */
+    int32_t (*entry)[2];           /* block and row, by columns */
 } brc_prolongation;
 
 /* P = (1 - weight D^-1 A) T, T the rigid motions of aggregates, and their swelling where they have one, in the free
@@ -81,7 +81,8 @@ void brc_prolongation_free(brc_prolongation *p);
 
 /* P^T A P. */
 brc_status brc_coarse_rows(brc_context *context, const brc_rows *rows, const brc_prolongation *p, brc_stored_rows *out);
-/* Inverse of a matrix [unknowns n][unknowns n]; directions without stiffness count as rigid. false in *done: it is not positive. */
+/* Inverse of a matrix [unknowns n][unknowns n]; directions without stiffness count as rigid. false in *done: it is not
+ * positive. */
 brc_status brc_invert_rows(brc_context *context, const brc_stored_rows *rows, double *inverse, bool *done);
 
 #endif

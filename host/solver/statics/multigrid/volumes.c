@@ -1,9 +1,18 @@
 /* The volumes of cells under the motions of aggregates. A cell's surface is closed, so that its volume changes by
- * sum s.(u_j - u_i) / 2 over the bonds it has, less s.u_i over its held faces; bonds within an aggregate that does not
- * swell add nothing. */
+ * sum s.(u_j - u_i) / 2 over the bonds it has, less s.u_i over its held faces. Rigid aggregates move as they are: bonds
+ * within one add nothing. Those that swell move by P, as in P^T A P: a negative modulus then leaves that positive. */
 #include "fine.h"
 #include <math.h>
 #include <string.h>
+
+/* Whose volumes: the finest level, its aggregates and the way to them. */
+typedef struct motions {
+    const brc_fine *f;
+    const int32_t *aggregate;
+    const brc_nodes *coarse;
+    const brc_prolongation *p;
+    bool swell;
+} motions;
 
 /* The change of a cell's volume as a row of its aggregates' motions. */
 typedef struct volume_row {
@@ -11,40 +20,90 @@ typedef struct volume_row {
     double (*motion)[BRC_MOST_UNKNOWNS];
 } volume_row;
 
-/* u of a node, times s. */
-static void add_node(const brc_fine *f, const int32_t *aggregate, const brc_nodes *coarse, int64_t node,
-                     const double s[3], volume_row *row)
+/* Place of an aggregate in the row, `n` of it where it has none. */
+static int32_t find_aggregate(const volume_row *row, int32_t aggregate)
 {
-    const int32_t of = aggregate[node];
     int32_t at = 0;
+    while (at < row->n && row->aggregate[at] != aggregate)
+        ++at;
+    return at;
+}
+
+/* The same, with a new one where it has none. */
+static int32_t meet(volume_row *row, int32_t aggregate)
+{
+    const int32_t at = find_aggregate(row, aggregate);
+    if (at < row->n) return at;
+    row->aggregate[row->n++] = aggregate;
+    memset(row->motion[at], 0, sizeof *row->motion);
+    return at;
+}
+
+/* u of a node, times s; its aggregate is rigid. */
+static void add_rigid(const motions *v, int64_t node, const double s[3], volume_row *row)
+{
+    const int32_t of = v->aggregate[node];
     double arm[3], free[3];
     if (of < 0) return;
-    while (at < row->n && row->aggregate[at] != of)
-        ++at;
-    if (at == row->n) {
-        row->aggregate[row->n++] = of;
-        memset(row->motion[at], 0, sizeof *row->motion);
-    }
+    const int32_t at = meet(row, of);
     for (int c = 0; c < 3; ++c) {
-        arm[c] = f->nodes.place[node][c] - coarse->place[of][c];
-        free[c] = f->nodes.free_bits[node] >> c & 1 ? s[c] : 0;
+        arm[c] = v->f->nodes.place[node][c] - v->coarse->place[of][c];
+        free[c] = v->f->nodes.free_bits[node] >> c & 1 ? s[c] : 0;
     }
     for (int c = 0; c < 3; ++c) {
         const int next = (c + 1) % 3, last = (c + 2) % 3;
         row->motion[at][c] += free[c];
         row->motion[at][3 + c] += arm[next] * free[last] - arm[last] * free[next];
-        row->motion[at][6] += arm[c] * free[c];
     }
 }
 
-static void find_row(const brc_fine *f, const int32_t *aggregate, const brc_nodes *coarse, int64_t e, volume_row *row)
+/* The same by P. An aggregate that the row has not, farther off than P^T A P couples, moves on as the node's own. */
+static void add_swelling(const motions *v, int64_t node, const double s[3], volume_row *row)
 {
+    const brc_prolongation *p = v->p;
+    const int32_t own = v->aggregate[node];
+    for (int64_t k = p->start[node]; k < p->start[node + 1]; ++k) {
+        const float *block = p->block + (int64_t)(p->unknowns * p->coarse_unknowns) * k;
+        double motion[BRC_MOST_UNKNOWNS] = {0}, d[3];
+        int32_t at = find_aggregate(row, p->column[k]);
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 7; ++c)
+                motion[c] += s[r] * block[7 * r + c];
+        if (at == row->n) {
+            at = find_aggregate(row, own);
+            for (int c = 0; c < 3; ++c)
+                d[c] = v->coarse->place[p->column[k]][c] - v->coarse->place[own][c];
+            for (int c = 0; c < 3; ++c) {
+                const int next = (c + 1) % 3, last = (c + 2) % 3;
+                motion[3 + c] += d[next] * motion[last] - d[last] * motion[next];
+                motion[6] += d[c] * motion[c];
+            }
+        }
+        for (int c = 0; c < 7; ++c)
+            row->motion[at][c] += motion[c];
+    }
+}
+
+static void add_node(const motions *v, int64_t node, const double s[3], volume_row *row)
+{
+    if (v->swell)
+        add_swelling(v, node, s, row);
+    else
+        add_rigid(v, node, s, row);
+}
+
+static void find_row(const motions *v, int64_t e, volume_row *row)
+{
+    const brc_fine *f = v->f;
     const brc_domain *d = f->s->domain;
     row->n = 0;
+    if (v->swell) meet(row, v->aggregate[e]);
+    for (int64_t h = d->row_start[e]; v->swell && h < d->row_start[e + 1]; ++h)
+        if (!f->whole || f->whole[h]) meet(row, v->aggregate[d->neighbour[h]]);
     for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
         const int64_t j = d->neighbour[h];
         double half[3], back[3], square = 0;
-        if ((f->whole && !f->whole[h]) || (aggregate[j] == aggregate[e] && coarse->unknowns == 6)) continue;
+        if ((f->whole && !f->whole[h]) || (v->aggregate[j] == v->aggregate[e] && !v->swell)) continue;
         for (int c = 0; c < 3; ++c) {
             half[c] = f->nodes.place[j][c] - f->nodes.place[e][c];
             square += half[c] * half[c];
@@ -53,13 +112,13 @@ static void find_row(const brc_fine *f, const int32_t *aggregate, const brc_node
             half[c] *= 0.5 * brc_fine_area(f, h) / sqrt(square);
             back[c] = -half[c];
         }
-        add_node(f, aggregate, coarse, j, half, row);
-        add_node(f, aggregate, coarse, e, back, row);
+        add_node(v, j, half, row);
+        add_node(v, e, back, row);
     }
     const int32_t held = brc_fine_ground(f, e);
     if (held < 0) return;
     const double *s = f->ground_area[held], less[3] = {-s[0], -s[1], -s[2]};
-    add_node(f, aggregate, coarse, e, less, row);
+    add_node(v, e, less, row);
 }
 
 /* rows += factor times the square of the row. */
@@ -78,16 +137,17 @@ static void add_square(const volume_row *row, double factor, brc_stored_rows *ro
 }
 
 brc_status brc_fine_add_volumes(const brc_fine *f, const int32_t *aggregate, const brc_nodes *coarse,
-                                brc_stored_rows *rows)
+                                const brc_prolongation *p, brc_stored_rows *rows)
 {
     const brc_simulation *s = f->s;
     BRC_LOCAL(s->context, f->rows.most, int32_t, column, "volumes");
     BRC_LOCAL(s->context, BRC_MOST_UNKNOWNS * (int64_t)f->rows.most, double, motion, "volumes");
+    const motions v = {f, aggregate, coarse, p, coarse->unknowns == 7};
     volume_row row = {.aggregate = column, .motion = (double(*)[BRC_MOST_UNKNOWNS])motion};
     for (int64_t e = 0; e < s->domain->n_elements; ++e) {
         const double modulus = f->volume_modulus[s->material_of_element[e]];
         if (modulus == 0 || aggregate[e] < 0) continue;
-        find_row(f, aggregate, coarse, e, &row);
+        find_row(&v, e, &row);
         add_square(&row, modulus / s->domain->volume[e], rows);
     }
     return BRC_OK;
