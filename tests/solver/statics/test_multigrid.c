@@ -421,44 +421,6 @@ static void a_slender_body_ends_at_the_rounding_of_its_displacements(void **stat
     }
 }
 
-/* Nothing holds the body: two tractions that balance. The strains are those of blocks; nothing is said of where the
- * body went. */
-static void a_free_body_stays_where_it_is(void **state)
-{
-    (void)state;
-    static const char freely[] = "  - name: pull\n    solver: {static: {finite_strain: false}}\n    loads:\n"
-                                 "      - traction: {set: x-, x: -1 uPa}\n      - traction: {set: x+, x: 1 uPa}\n";
-    bench_case c;
-    double *strain[2], largest = 0, off = 0;
-    int64_t n = 0;
-    for (int k = 0; k < 2; ++k) {
-        open_case(&c, (case_options){.fill = "cells: [8, 8, 8], spread: 90 %, seed: 1", .stages = freely});
-        c.scene->stages[0].preconditioner = k == 0 ? BRC_PRECONDITIONER_MULTIGRID : BRC_PRECONDITIONER_BLOCKS;
-        assert_done(&c, brc_simulation_run(c.simulation));
-        n = c.domain->n_elements;
-        strain[k] = calloc((size_t)(6 * n), sizeof *strain[k]);
-        assert_done(&c, brc_simulation_strain_stress(c.simulation, strain[k], NULL, NULL));
-        double *u = calloc((size_t)(3 * n), sizeof *u), mean[3] = {0}, span = 0;
-        assert_done(&c, brc_simulation_displacement(c.simulation, u));
-        for (int64_t i = 0; i < 3 * n; ++i) {
-            mean[i % 3] += u[i] / (double)n;
-            span = fmax(span, fabs(u[i]));
-        }
-        for (int i = 0; i < 3; ++i)
-            if (!(fabs(mean[i]) < 0.1 * span))
-                fail_msg("mean displacement %g, the largest %g", mean[i],
-                         span); /* multigrid's rigid motions were taken off */
-        free(u);
-        close_case(&c);
-    }
-    for (int64_t i = 0; i < 6 * n; ++i) {
-        largest = fmax(largest, fabs(strain[1][i]));
-        off = fmax(off, fabs(strain[0][i] - strain[1][i]));
-    }
-    if (!(off < 1e-7 * largest)) fail_msg("strains off by %g of %g", off, largest);
-    free(strain[0]), free(strain[1]);
-}
-
 /* Events: the levels stay while bonds break, and are made anew where iterations have grown; the same bonds break as
  * with blocks. */
 static void events_keep_their_levels_and_renew_them(void **state)
@@ -511,7 +473,6 @@ int main(void)
         cmocka_unit_test(cycles_converge_to_a_dense_solve),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(the_answer_is_that_of_blocks),
-        cmocka_unit_test(a_free_body_stays_where_it_is),
         cmocka_unit_test(events_keep_their_levels_and_renew_them),
         cmocka_unit_test(iterations_hardly_grow_with_the_body),
         cmocka_unit_test(iterations_hardly_grow_at_the_ends_of_poissons_ratio),

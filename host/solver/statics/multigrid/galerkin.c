@@ -4,46 +4,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows, inner numbers and columns of a product of blocks. */
-typedef struct sizes {
-    int rows, inner, columns;
-} sizes;
-
-/* a += factor b c, or factor b^T c: element (r, k) of b is at `down` r + `along` k. */
-static inline __attribute__((always_inline)) void add_sized(sizes n, int down, int along, double *restrict a,
-                                                            double factor, const double *restrict b,
-                                                            const double *restrict c)
-{
-    for (int r = 0; r < n.rows; ++r) {
-        double sum[BRC_MOST_UNKNOWNS] = {0};
-        for (int k = 0; k < n.inner; ++k)
-            for (int j = 0; j < n.columns; ++j)
-                sum[j] += b[down * r + along * k] * c[n.columns * k + j];
-        for (int j = 0; j < n.columns; ++j)
-            a[n.columns * r + j] += factor * sum[j];
+/* a += factor b c, or factor b^T c, of so many rows, inner numbers and columns: element (r, k) of b is at
+ * `down` r + `along` k. A function for each size, that the compiler writes its loops out. */
+#define PRODUCT(name, rows, inner, columns, down, along)                                                               \
+    static void name(double *restrict a, double factor, const double *restrict b, const double *restrict c)            \
+    {                                                                                                                  \
+        for (int r = 0; r < (rows); ++r) {                                                                             \
+            double sum[columns] = {0};                                                                                 \
+            for (int k = 0; k < (inner); ++k)                                                                          \
+                for (int j = 0; j < (columns); ++j)                                                                    \
+                    sum[j] += b[(down)*r + (along)*k] * c[(columns)*k + j];                                            \
+            for (int j = 0; j < (columns); ++j)                                                                        \
+                a[(columns)*r + j] += factor * sum[j];                                                                 \
+        }                                                                                                              \
     }
-}
+PRODUCT(product_666, 6, 6, 6, 6, 1)
+PRODUCT(product_667, 6, 6, 7, 6, 1)
+PRODUCT(product_767, 7, 6, 7, 6, 1)
+PRODUCT(product_777, 7, 7, 7, 7, 1)
+PRODUCT(transposed_666, 6, 6, 6, 1, 6)
+PRODUCT(transposed_766, 7, 6, 6, 1, 7)
+PRODUCT(transposed_777, 7, 7, 7, 1, 7)
 
-/* a += factor b c. The branches are one loop that the compiler writes out for each size. */
-static void add_product(sizes n, double *a, double factor, const double *b, const double *c)
-{
-    if (n.inner == 7)
-        add_sized((sizes){7, 7, 7}, 7, 1, a, factor, b, c);
-    else if (n.columns == 7)
-        add_sized((sizes){n.rows, 6, 7}, 6, 1, a, factor, b, c);
-    else
-        add_sized((sizes){6, 6, 6}, 6, 1, a, factor, b, c);
-}
+/* The products between a level and a coarser one: A T and D^-1 (A T); P^T A; (P^T A) P. */
+typedef void product(double *restrict a, double factor, const double *restrict b, const double *restrict c);
+typedef struct products {
+    product *smooth, *gather, *coarse;
+} products;
 
-/* a += b^T c */
-static void add_transposed_product(sizes n, double *a, const double *b, const double *c)
+static products products_of(int unknowns, int coarse_unknowns)
 {
-    if (n.inner == 7)
-        add_sized((sizes){7, 7, 7}, 1, 7, a, 1, b, c);
-    else if (n.rows == 7)
-        add_sized((sizes){7, 6, 6}, 1, 7, a, 1, b, c);
-    else
-        add_sized((sizes){6, 6, 6}, 1, 6, a, 1, b, c);
+    if (unknowns == 7) return (products){product_777, transposed_777, product_777};
+    if (coarse_unknowns == 7) return (products){product_667, transposed_766, product_767};
+    return (products){product_666, transposed_666, product_666};
 }
 
 /* Motion of an aggregate at one of its nodes, [unknowns of a node][those of an aggregate]: displacement
@@ -141,20 +134,20 @@ static void smooth_row(const smoothing *s, row_room *room, int64_t i, brc_prolon
                   n = (int32_t)(p->start[i + 1] - p->start[i]);
     const int32_t *found = p->column + p->start[i];
     const int own = p->unknowns, size = own * p->coarse_unknowns;
-    const sizes sized = {own, own, p->coarse_unknowns};
+    product *const add = products_of(own, p->coarse_unknowns).smooth;
     double motion[BRC_MOST_BLOCK], inverse[BRC_MOST_BLOCK];
     memset(room->sum, 0, (size_t)(size * n) * sizeof *room->sum);
     for (int32_t k = 0; k < count; ++k) {
         const int32_t of = s->aggregate[room->column[k]];
         if (of < 0) continue;
         motion_block(s->nodes, s->coarse, room->column[k], of, motion);
-        add_product(sized, room->sum + size * place_in(found, of), 1, room->block + own * own * k, motion);
+        add(room->sum + size * place_in(found, of), 1, room->block + own * own * k, motion);
     }
     whole_block(own, s->inverse + brc_triangle(own) * i, inverse);
     for (int32_t k = 0; k < n; ++k) {
         double out[BRC_MOST_BLOCK] = {0};
         if (found[k] == s->aggregate[i]) motion_block(s->nodes, s->coarse, i, found[k], out);
-        add_product(sized, out, -s->weight, inverse, room->sum + size * k);
+        add(out, -s->weight, inverse, room->sum + size * k);
         for (int c = 0; c < size; ++c)
             p->block[size * (p->start[i] + k) + c] = (float)out[c];
     }
@@ -295,6 +288,7 @@ static brc_status product_row(brc_context *context, const brc_rows *rows, const 
                               bool sums, product_room *room, int32_t *n)
 {
     const int fine = p->unknowns, coarse = p->coarse_unknowns, across = fine * coarse, whole = coarse * coarse;
+    const products add = products_of(fine, coarse);
     int32_t n_fine = 0;
     double block[BRC_MOST_BLOCK];
     *n = 0;
@@ -305,8 +299,7 @@ static brc_status product_row(brc_context *context, const brc_rows *rows, const 
             const int32_t j = room->row.column[c];
             BRC_TRY(meet(context, j, across, room->fine_mark, &n_fine, &room->fine, &room->fine_sum, &room->fine_room));
             if (sums)
-                add_transposed_product((sizes){coarse, fine, fine}, room->fine_sum + across * room->fine_mark[j], block,
-                                       room->row.block + fine * fine * c);
+                add.gather(room->fine_sum + across * room->fine_mark[j], 1, block, room->row.block + fine * fine * c);
         }
     }
     BRC_TRY(meet(context, (int32_t)i, whole, room->coarse_mark, n, &room->coarse, &room->coarse_sum,
@@ -319,8 +312,8 @@ static brc_status product_row(brc_context *context, const brc_rows *rows, const 
                          &room->coarse_room));
             if (!sums) continue;
             widen(across, p->block + across * k, block);
-            add_product((sizes){coarse, fine, coarse}, room->coarse_sum + whole * room->coarse_mark[p->column[k]], 1,
-                        room->fine_sum + across * f, block);
+            add.coarse(room->coarse_sum + whole * room->coarse_mark[p->column[k]], 1, room->fine_sum + across * f,
+                       block);
         }
     }
     for (int32_t c = 0; c < *n; ++c)

@@ -11,7 +11,6 @@ typedef struct motions {
     const int32_t *aggregate;
     const brc_nodes *coarse;
     const brc_prolongation *p;
-    bool swell;
 } motions;
 
 /* The change of a cell's volume as a row of its aggregates' motions. */
@@ -84,41 +83,65 @@ static void add_swelling(const motions *v, int64_t node, const double s[3], volu
     }
 }
 
-static void add_node(const motions *v, int64_t node, const double s[3], volume_row *row)
+static bool is_whole(const brc_fine *f, int64_t h)
 {
-    if (v->swell)
-        add_swelling(v, node, s, row);
-    else
-        add_rigid(v, node, s, row);
+    return !f->whole || f->whole[h];
 }
 
-static void find_row(const motions *v, int64_t e, volume_row *row)
+/* Half the area of a bond, along its branch from e. */
+static void find_half_area(const brc_fine *f, int64_t e, int64_t h, double half[3])
+{
+    const int64_t j = f->s->domain->neighbour[h];
+    double square = 0;
+    for (int c = 0; c < 3; ++c) {
+        half[c] = f->nodes.place[j][c] - f->nodes.place[e][c];
+        square += half[c] * half[c];
+    }
+    for (int c = 0; c < 3; ++c)
+        half[c] *= 0.5 * brc_fine_area(f, h) / sqrt(square);
+}
+
+static void find_rigid_row(const motions *v, int64_t e, volume_row *row)
 {
     const brc_fine *f = v->f;
     const brc_domain *d = f->s->domain;
     row->n = 0;
-    if (v->swell) meet(row, v->aggregate[e]);
-    for (int64_t h = d->row_start[e]; v->swell && h < d->row_start[e + 1]; ++h)
-        if (!f->whole || f->whole[h]) meet(row, v->aggregate[d->neighbour[h]]);
     for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
         const int64_t j = d->neighbour[h];
-        double half[3], back[3], square = 0;
-        if ((f->whole && !f->whole[h]) || (v->aggregate[j] == v->aggregate[e] && !v->swell)) continue;
-        for (int c = 0; c < 3; ++c) {
-            half[c] = f->nodes.place[j][c] - f->nodes.place[e][c];
-            square += half[c] * half[c];
-        }
-        for (int c = 0; c < 3; ++c) {
-            half[c] *= 0.5 * brc_fine_area(f, h) / sqrt(square);
-            back[c] = -half[c];
-        }
-        add_node(v, j, half, row);
-        add_node(v, e, back, row);
+        double half[3];
+        if (!is_whole(f, h) || v->aggregate[j] == v->aggregate[e]) continue;
+        find_half_area(f, e, h, half);
+        const double back[3] = {-half[0], -half[1], -half[2]};
+        add_rigid(v, j, half, row);
+        add_rigid(v, e, back, row);
     }
     const int32_t held = brc_fine_ground(f, e);
     if (held < 0) return;
     const double *s = f->ground_area[held], less[3] = {-s[0], -s[1], -s[2]};
-    add_node(v, e, less, row);
+    add_rigid(v, e, less, row);
+}
+
+static void find_swelling_row(const motions *v, int64_t e, volume_row *row)
+{
+    const brc_fine *f = v->f;
+    const brc_domain *d = f->s->domain;
+    const int32_t held = brc_fine_ground(f, e);
+    double own[3] = {0};
+    row->n = 0;
+    meet(row, v->aggregate[e]);
+    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
+        if (is_whole(f, h)) meet(row, v->aggregate[d->neighbour[h]]);
+    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
+        double half[3];
+        if (!is_whole(f, h)) continue;
+        find_half_area(f, e, h, half);
+        add_swelling(v, d->neighbour[h], half, row);
+        for (int c = 0; c < 3; ++c)
+            own[c] -= half[c];
+    }
+    for (int c = 0; c < 3 && held >= 0; ++c)
+        own[c] -= f->ground_area[held][c];
+    add_swelling(v, e, own, row);
 }
 
 /* rows += factor times the square of the row. */
@@ -142,12 +165,15 @@ brc_status brc_fine_add_volumes(const brc_fine *f, const int32_t *aggregate, con
     const brc_simulation *s = f->s;
     BRC_LOCAL(s->context, f->rows.most, int32_t, column, "volumes");
     BRC_LOCAL(s->context, BRC_MOST_UNKNOWNS * (int64_t)f->rows.most, double, motion, "volumes");
-    const motions v = {f, aggregate, coarse, p, coarse->unknowns == 7};
+    const motions v = {f, aggregate, coarse, p};
     volume_row row = {.aggregate = column, .motion = (double(*)[BRC_MOST_UNKNOWNS])motion};
     for (int64_t e = 0; e < s->domain->n_elements; ++e) {
         const double modulus = f->volume_modulus[s->material_of_element[e]];
         if (modulus == 0 || aggregate[e] < 0) continue;
-        find_row(&v, e, &row);
+        if (coarse->unknowns == 7)
+            find_swelling_row(&v, e, &row);
+        else
+            find_rigid_row(&v, e, &row);
         add_square(&row, modulus / s->domain->volume[e], rows);
     }
     return BRC_OK;
