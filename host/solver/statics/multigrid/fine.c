@@ -37,12 +37,12 @@ bool brc_multigrid_has_law_steps(const brc_simulation *s)
 }
 
 /* What coarser levels add to lambda: below zero most of it, without which bending is too stiff (all of it might leave
- * them without stiffness, since motions of rigid aggregates change volumes in steps), all where they swell; where the
- * volume is stiff as much as helps beside steps of the law. */
+ * them without stiffness, since motions of aggregates change volumes in steps); where the volume is stiff as much as
+ * helps beside steps of the law. */
 static double volume_modulus(const brc_elastic *m)
 {
     static const double part = 0.9, most = 3; /* of lambda; of mu: measured */
-    return is_stiff(m) ? most * m->mu : is_soft(m) ? m->lambda : part * fmin(m->lambda, 0);
+    return is_stiff(m) ? most * m->mu : part * fmin(m->lambda, 0);
 }
 
 /* A bond: unit vector and length of its branch, stiffness along and across it [N/m], of its ends' rotation across and

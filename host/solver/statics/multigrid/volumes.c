@@ -1,6 +1,7 @@
 /* The volumes of cells under the motions of aggregates. A cell's surface is closed, so that its volume changes by
  * sum s.(u_j - u_i) / 2 over the bonds it has, less s.u_i over its held faces. Rigid aggregates move as they are: bonds
- * within one add nothing. Those that swell move by P, as in P^T A P: a negative modulus then leaves that positive. */
+ * within one add nothing. Those that swell move by P, nearly as in P^T A P: what a negative modulus takes off must not
+ * be more than there is. */
 #include "fine.h"
 #include <math.h>
 #include <string.h>
