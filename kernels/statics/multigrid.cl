@@ -1,6 +1,8 @@
 /* Multigrid as preconditioner of static solves (host/solver/statics/multigrid): residuals, steps and transfers between
- * levels. A node of a level has a displacement move [n][3] and a rotation turn [n][3], forces and torques likewise.
- * Each work-item gathers and writes its own node. */
+ * levels. A node of a level has a displacement move [n][3] and a rotation turn [n][3], forces and torques likewise; of
+ * coarser levels that swell (swells 1) also a swelling swell [n], u = swell (x - centre), and what works on it, the
+ * virial [n]. A block of these has its 36 numbers of the first six unknowns, by columns, then the six that swelling
+ * does to them, the six that they do to swelling, and its own. Each work-item gathers and writes its own node. */
 
 /* out = right - A x of the finest level of cells: its bonds from area vectors and L/S, or from branches and areas
  * (by_branch). moduli_of [n][3]: with several materials. n_right: right sides there are: 0 none, 1 forces, 2 forces and
@@ -81,6 +83,33 @@ LAW multigrid_node multigrid_add_transposed(multigrid_node y, GATHER(state) bloc
     return y;
 }
 
+/* Numbers of a block of a level. */
+LAW int multigrid_block_size(int swells) { return swells ? 49 : 36; }
+/* y + factor B e of a swelling e, without that of its own. */
+LAW multigrid_node multigrid_add_swelling(multigrid_node y, state factor, GATHER(state) block, state e)
+{
+    for (int a = 0; a < 6; ++a) y.v[a] += block[36 + a] * (factor * e);
+    return y;
+}
+/* Of the swelling: B x and B e; their transposes. */
+LAW state multigrid_to_swelling(OWN(state) block, multigrid_node x, state e)
+{
+    state y = block[48] * e;
+    for (int b = 0; b < 6; ++b) y += block[42 + b] * x.v[b];
+    return y;
+}
+LAW multigrid_node multigrid_add_transposed_swelling(multigrid_node y, GATHER(state) block, state e)
+{
+    for (int a = 0; a < 6; ++a) y.v[a] += block[42 + a] * e;
+    return y;
+}
+LAW state multigrid_transposed_to_swelling(GATHER(state) block, multigrid_node x, state e)
+{
+    state y = block[48] * e;
+    for (int b = 0; b < 6; ++b) y += block[36 + b] * x.v[b];
+    return y;
+}
+
 /* Held faces add blocks [n][36] to the stiffness of their elements: out -= block x. element [n] rows. */
 KERNEL void multigrid_ground(int n, OWN(int) element, OWN(state) block, OWN(state) move, OWN(state) turn,
                              UPDATE(state) force, UPDATE(state) torque)
@@ -92,28 +121,41 @@ KERNEL void multigrid_ground(int n, OWN(int) element, OWN(state) block, OWN(stat
     }
 }
 
-/* out = right - A x of a coarser level: rows of blocks [start[n]][36]; right only if n_right > 0. */
-KERNEL void multigrid_matrix(int n, OWN(int) start, OWN(int) column, OWN(state) block, GATHER(state) move,
-                             GATHER(state) turn, int n_right, OWN(state) right_force, OWN(state) right_torque,
-                             PUT(state) force, PUT(state) torque)
+/* out = right - A x of a coarser level: rows of blocks [start[n]]; right only if n_right > 0. */
+KERNEL void multigrid_matrix(int n, int swells, OWN(int) start, OWN(int) column, OWN(state) block, GATHER(state) move,
+                             GATHER(state) turn, GATHER(state) swell, int n_right, OWN(state) right_force,
+                             OWN(state) right_torque, OWN(state) right_virial, PUT(state) force, PUT(state) torque,
+                             PUT(state) virial)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
+        state own = 0;
         if (n_right > 0) y = multigrid_load(right_force, right_torque, i);
+        if (n_right > 0 && swells) own = right_virial[i];
         for (int k = start[i]; k < start[i + 1]; ++k) {
             const multigrid_node x = multigrid_load(move, turn, column[k]);
-            y = multigrid_add(y, STATE(-1), block + (brc_size)k * 36, x);
+            GLOBAL const state *b = block + (brc_size)k * (brc_size)multigrid_block_size(swells);
+            y = multigrid_add(y, STATE(-1), b, x);
+            if (swells) {
+                const state e = swell[column[k]];
+                y = multigrid_add_swelling(y, STATE(-1), b, e);
+                own -= multigrid_to_swelling(b, x, e);
+            }
         }
         multigrid_store(force, torque, i, y);
+        if (swells) virial[i] = own;
     }
 }
 
-/* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21], row by row. n_right as above: a missing torque is zero. */
-KERNEL void multigrid_step(int n, state weight, int add, OWN(state) inverse, int n_right, OWN(state) force,
-                           OWN(state) torque, UPDATE(state) move, UPDATE(state) turn)
+/* x = [x +] weight D^-1 f, D^-1 as upper triangles [n][21], row by row; where nodes swell [n][28], the column of
+ * swelling last. n_right as above: a missing torque is zero. */
+KERNEL void multigrid_step(int n, int swells, state weight, int add, OWN(state) inverse, int n_right, OWN(state) force,
+                           OWN(state) torque, OWN(state) virial, UPDATE(state) move, UPDATE(state) turn,
+                           UPDATE(state) swell)
 {
     FOR_EACH_ITEM(e, n) {
-        GLOBAL const state *p = inverse + (brc_size)e * 21, *f = force + (brc_size)e * 3, *t = torque + (brc_size)e * 3;
+        GLOBAL const state *p = inverse + (brc_size)e * (swells ? 28 : 21), *f = force + (brc_size)e * 3,
+                           *t = torque + (brc_size)e * 3;
         const state a = weight * f[0], b = weight * f[1], c = weight * f[2];
         state d = 0, g = 0, h = 0;
         multigrid_node x = {{0, 0, 0, 0, 0, 0}};
@@ -125,6 +167,12 @@ KERNEL void multigrid_step(int n, state weight, int add, OWN(state) inverse, int
         x.v[3] = x.v[3] + p[3] * a + p[8] * b + p[12] * c + p[15] * d + p[16] * g + p[17] * h;
         x.v[4] = x.v[4] + p[4] * a + p[9] * b + p[13] * c + p[16] * d + p[18] * g + p[19] * h;
         x.v[5] = x.v[5] + p[5] * a + p[10] * b + p[14] * c + p[17] * d + p[19] * g + p[20] * h;
+        if (swells) {
+            const state w = weight * virial[e];
+            for (int k = 0; k < 6; ++k) x.v[k] += p[21 + k] * w;
+            swell[e] = (add ? swell[e] : 0) + p[21] * a + p[22] * b + p[23] * c + p[24] * d + p[25] * g + p[26] * h +
+                       p[27] * w;
+        }
         multigrid_store(move, turn, e, x);
     }
 }
@@ -165,12 +213,12 @@ KERNEL void multigrid_finest_step(int n_groups, state weight, int add, OWN(state
     }
 }
 
-/* Rigid motions of aggregates, the finest level: force and torque about the aggregate's centre of what acts on its
+/* Motions of aggregates, the finest level: force, torque and virial about the aggregate's centre of what acts on its
  * members' free components (bits 1 2 4 of displacements, 8 16 32 of rotations). member [start[n]] rows, arm [n_rows][3]
  * from the centre [m]. */
-KERNEL void multigrid_collect(int n, OWN(int) start, OWN(int) member, GATHER(coeff) arm, GATHER(int) free_bits,
-                              GATHER(state) force, GATHER(state) torque, PUT(state) whole_force,
-                              PUT(state) whole_torque)
+KERNEL void multigrid_collect(int n, int swells, OWN(int) start, OWN(int) member, GATHER(coeff) arm,
+                              GATHER(int) free_bits, GATHER(state) force, GATHER(state) torque, PUT(state) whole_force,
+                              PUT(state) whole_torque, PUT(state) whole_virial)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
@@ -186,12 +234,23 @@ KERNEL void multigrid_collect(int n, OWN(int) start, OWN(int) member, GATHER(coe
             y.v[5] += x * r.v[1] - w * r.v[0];
         }
         multigrid_store(whole_force, whole_torque, i, y);
+        if (swells) {
+            state virial = 0;
+            for (int k = start[i]; k < start[i + 1]; ++k) {
+                const brc_size at = (brc_size)member[k] * 3;
+                for (int c = 0; c < 3; ++c)
+                    virial +=
+                        free_bits[member[k]] >> c & 1 ? (state)arm[at + (brc_size)c] * force[at + (brc_size)c] : 0;
+            }
+            whole_virial[i] = virial;
+        }
     }
 }
 
 /* Members move on with their aggregate in their free components. aggregate [n], -1: none. */
-KERNEL void multigrid_spread(int n, OWN(int) aggregate, OWN(coeff) arm, OWN(int) free_bits, GATHER(state) whole_move,
-                             GATHER(state) whole_turn, UPDATE(state) move, UPDATE(state) turn)
+KERNEL void multigrid_spread(int n, int swells, OWN(int) aggregate, OWN(coeff) arm, OWN(int) free_bits,
+                             GATHER(state) whole_move, GATHER(state) whole_turn, GATHER(state) whole_swell,
+                             UPDATE(state) move, UPDATE(state) turn)
 {
     FOR_EACH_ITEM(e, n) {
         if (aggregate[e] >= 0) {
@@ -204,52 +263,87 @@ KERNEL void multigrid_spread(int n, OWN(int) aggregate, OWN(coeff) arm, OWN(int)
             y.v[2] += y.v[3] * w - y.v[4] * x;
             for (int c = 0; c < 6; ++c) to.v[c] += bits >> c & 1 ? y.v[c] : 0;
             multigrid_store(move, turn, e, to);
+            if (swells) {
+                const brc_size at = (brc_size)e * 3;
+                const state swell = whole_swell[aggregate[e]];
+                for (int c = 0; c < 3; ++c)
+                    move[at + (brc_size)c] += bits >> c & 1 ? swell * (state)arm[at + (brc_size)c] : 0;
+            }
         }
     }
 }
 
-/* x += P e with rows of blocks [start[n]][36]. */
-KERNEL void multigrid_prolong(int n, OWN(int) start, OWN(int) column, OWN(state) block, GATHER(state) coarse_move,
-                              GATHER(state) coarse_turn, UPDATE(state) move, UPDATE(state) turn)
+/* x += P e with rows of blocks [start[n]]. */
+KERNEL void multigrid_prolong(int n, int swells, OWN(int) start, OWN(int) column, OWN(state) block,
+                              GATHER(state) coarse_move, GATHER(state) coarse_turn, GATHER(state) coarse_swell,
+                              UPDATE(state) move, UPDATE(state) turn, UPDATE(state) swell)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = multigrid_load(move, turn, i);
+        state own = swells ? swell[i] : 0;
         for (int k = start[i]; k < start[i + 1]; ++k) {
             const multigrid_node x = multigrid_load(coarse_move, coarse_turn, column[k]);
-            y = multigrid_add(y, STATE(1), block + (brc_size)k * 36, x);
+            GLOBAL const state *b = block + (brc_size)k * (brc_size)multigrid_block_size(swells);
+            y = multigrid_add(y, STATE(1), b, x);
+            if (swells) {
+                const state e = coarse_swell[column[k]];
+                y = multigrid_add_swelling(y, STATE(1), b, e);
+                own += multigrid_to_swelling(b, x, e);
+            }
         }
         multigrid_store(move, turn, i, y);
+        if (swells) swell[i] = own;
     }
 }
 
 /* P^T r: column_start [n + 1] of the places (block, row) [.][2] of each column of P. */
-KERNEL void multigrid_restrict(int n, OWN(int) column_start, OWN(int) place, GATHER(state) block, GATHER(state) force,
-                               GATHER(state) torque, PUT(state) coarse_force, PUT(state) coarse_torque)
+KERNEL void multigrid_restrict(int n, int swells, OWN(int) column_start, OWN(int) place, GATHER(state) block,
+                               GATHER(state) force, GATHER(state) torque, GATHER(state) virial, PUT(state) coarse_force,
+                               PUT(state) coarse_torque, PUT(state) coarse_virial)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
+        state own = 0;
         for (int k = column_start[i]; k < column_start[i + 1]; ++k) {
             const multigrid_node r = multigrid_load(force, torque, place[2 * k + 1]);
-            y = multigrid_add_transposed(y, block + (brc_size)place[2 * k] * 36, r);
+            GLOBAL const state *b = block + (brc_size)place[2 * k] * (brc_size)multigrid_block_size(swells);
+            y = multigrid_add_transposed(y, b, r);
+            if (swells) {
+                const state e = virial[place[2 * k + 1]];
+                y = multigrid_add_transposed_swelling(y, b, e);
+                own += multigrid_transposed_to_swelling(b, r, e);
+            }
         }
         multigrid_store(coarse_force, coarse_torque, i, y);
+        if (swells) coarse_virial[i] = own;
     }
 }
 
-/* The coarsest level, solved: the inverse [6 n][6 n], a node's displacement before its rotation. */
-KERNEL void multigrid_coarsest(int n, OWN(state) inverse, GATHER(state) force, GATHER(state) torque, PUT(state) move,
-                               PUT(state) turn)
+/* The coarsest level, solved: the inverse [6 n][6 n], or [7 n][7 n], a node's displacement before its rotation before
+ * its swelling. */
+KERNEL void multigrid_coarsest(int n, int swells, OWN(state) inverse, GATHER(state) force, GATHER(state) torque,
+                               GATHER(state) virial, PUT(state) move, PUT(state) turn, PUT(state) swell)
 {
     FOR_EACH_ITEM(i, n) {
         multigrid_node y = {{0, 0, 0, 0, 0, 0}};
+        state own = 0;
+        const brc_size each = swells ? 7 : 6, row_size = (brc_size)n * each;
         for (int j = 0; j < n; ++j) {
             const multigrid_node r = multigrid_load(force, torque, j);
+            const state e = swells ? virial[j] : 0;
+            GLOBAL const state *block = inverse + (brc_size)i * each * row_size + (brc_size)j * each;
             for (int a = 0; a < 6; ++a) {
-                GLOBAL const state *row =
-                    inverse + ((brc_size)i * 6 + (brc_size)a) * ((brc_size)n * 6) + (brc_size)j * 6;
+                GLOBAL const state *row = block + (brc_size)a * row_size;
                 for (int b = 0; b < 6; ++b) y.v[a] += row[b] * r.v[b];
+                if (swells) y.v[a] += row[6] * e;
+            }
+            if (swells) {
+                GLOBAL const state *row = block + 6 * row_size;
+                for (int b = 0; b < 6; ++b) own += row[b] * r.v[b];
+                own += row[6] * e;
             }
         }
         multigrid_store(move, turn, i, y);
+        if (swells) swell[i] = own;
     }
 }

@@ -26,8 +26,9 @@ typedef struct brc_wants {
     bool weighted, softens; /* some bond: its strength differs from that of its material, it has a fracture energy */
     bool loose;             /* some element has no bonds, or may lose them */
     int64_t exposed_room,
-        bucket_room;  /* contact: exposed elements that there is room for, cells of the grid they are sorted into */
-    int64_t n_listed; /* of the list that is made: loads, pairs ... */
+        bucket_room;     /* contact: exposed elements that there is room for, cells of the grid they are sorted into */
+    int64_t n_listed;    /* of the list that is made: loads, pairs ... */
+    int listed_unknowns; /* of each, where it is a node of multigrid */
 } brc_wants;
 
 /* Numbers of a field are of the precision's states or coefficients, or ints. */

@@ -23,6 +23,8 @@ struct brc_rigid_parts {
     brc_buffer *whole_force, *whole_torque;  /* [n] */
     brc_buffer *whole_move, *whole_turn;     /* [n] */
     brc_buffer *inverse;                     /* [n][n][36] */
+    bool swells;                             /* no: they are rigid, and what swelling has is not there */
+    brc_buffer *nothing;
 };
 
 BRC_COUNTED(each_row, w->layout->n_rows)
@@ -259,7 +261,13 @@ static brc_status make_passes(brc_rigid_parts *parts)
 {
     brc_simulation *s = parts->s;
     const brc_scope run = brc_scope_of_run(s);
-    const brc_scope own = {.owner = WORDS, .base = parts, .tables = {&brc_rigid_parts_fields}, .outer = &run};
+    static const brc_value_row values[] = {{"swells", BRC_VALUE_BOOL, AT(swells)},
+                                           {"virial", BRC_VALUE_BUFFER, AT(nothing)},
+                                           {"swell", BRC_VALUE_BUFFER, AT(nothing)},
+                                           {"whole_virial", BRC_VALUE_BUFFER, AT(nothing)},
+                                           {"whole_swell", BRC_VALUE_BUFFER, AT(nothing)}};
+    const brc_scope own = {
+        .owner = WORDS, .base = parts, .tables = {&brc_rigid_parts_fields}, BRC_VALUES(values), .outer = &run};
     BRC_TRY(brc_pass_make(s->context, s->device, &own, "multigrid_collect", "force torque", &parts->passes,
                           &parts->collect));
     BRC_TRY(brc_pass_make(s->context, s->device, &own, "multigrid_coarsest", "force torque move turn", &parts->passes,

@@ -2,6 +2,8 @@
 #include "../support.h"
 #include "../../../host/base/log.h"
 #include "../../../host/solver/statics/free_bodies.h"
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define STAGE(loads) "  - name: pull\n    solver: static\n    loads:\n" loads
@@ -109,6 +111,51 @@ static void motions_aslant_the_axes_are_counted(void **state)
     assert_string_equal(brc_free_motions_text(&free, text, sizeof text), "in 1 way aslant the axes");
 }
 
+/* Nothing holds the body: two tractions that balance. The strains are those of blocks; nothing is said of where the
+ * body went. */
+static void assert_it_stays(const char *materials)
+{
+    static const char freely[] = "  - name: pull\n    solver: {static: {finite_strain: false}}\n    loads:\n"
+                                 "      - traction: {set: x-, x: -1 uPa}\n      - traction: {set: x+, x: 1 uPa}\n";
+    bench_case c;
+    double *strain[2], largest = 0, off = 0;
+    int64_t n = 0;
+    for (int k = 0; k < 2; ++k) {
+        open_case(&c, (case_options){
+                          .fill = "cells: [8, 8, 8], spread: 90 %, seed: 1", .materials = materials, .stages = freely});
+        c.scene->stages[0].preconditioner = k == 0 ? BRC_PRECONDITIONER_MULTIGRID : BRC_PRECONDITIONER_BLOCKS;
+        assert_done(&c, brc_simulation_run(c.simulation));
+        n = c.domain->n_elements;
+        strain[k] = calloc((size_t)(6 * n), sizeof *strain[k]);
+        assert_done(&c, brc_simulation_strain_stress(c.simulation, strain[k], NULL, NULL));
+        double *u = calloc((size_t)(3 * n), sizeof *u), mean[3] = {0}, span = 0;
+        assert_done(&c, brc_simulation_displacement(c.simulation, u));
+        for (int64_t i = 0; i < 3 * n; ++i) {
+            mean[i % 3] += u[i] / (double)n;
+            span = fmax(span, fabs(u[i]));
+        }
+        for (int i = 0; i < 3; ++i)
+            if (!(fabs(mean[i]) < 0.1 * span))
+                fail_msg("mean displacement %g, the largest %g", mean[i],
+                         span); /* multigrid's rigid motions were taken off */
+        free(u);
+        close_case(&c);
+    }
+    for (int64_t i = 0; i < 6 * n; ++i) {
+        largest = fmax(largest, fabs(strain[1][i]));
+        off = fmax(off, fabs(strain[0][i] - strain[1][i]));
+    }
+    if (!(off < 1e-7 * largest)) fail_msg("strains off by %g of %g", off, largest);
+    free(strain[0]), free(strain[1]);
+}
+
+static void a_free_body_stays_where_it_is(void **state)
+{
+    (void)state;
+    assert_it_stays(NULL);
+    assert_it_stays("  stone: {E: 1 Pa, nu: -0.95, density: 1 kg/m^3}");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -117,6 +164,7 @@ int main(void)
         cmocka_unit_test(motions_that_no_load_pushes_are_told_where_all_are_asked_for),
         cmocka_unit_test(dynamic_stages_may_move_as_they_like),
         cmocka_unit_test(motions_aslant_the_axes_are_counted),
+        cmocka_unit_test(a_free_body_stays_where_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,6 +13,9 @@ static const char held[] =
 static const char by_elements[] = "  - name: pull\n    solver: {static: {finite_strain: false}}\n    loads:\n"
                                   "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - "
                                   "element_displacement: {set: right, z: 1 um}\n";
+static const char by_whole_elements[] = "  - name: pull\n    solver: {static: {finite_strain: false}}\n    loads:\n"
+                                        "      - element_displacement: {set: left, x: 0, y: 0, z: 0}\n      - "
+                                        "element_displacement: {set: right, x: 0, y: 0, z: 1 um}\n";
 static const char walls[] = "sets:\n  left: {elements: {wall: x-}}\n  right: {elements: {wall: x+}}\n";
 
 /* Levels over the case's first stage. */
@@ -100,6 +103,26 @@ static void the_preconditioner_is_symmetric_and_positive(void **state)
         assert_symmetric_and_positive(
             (case_options){.fill = "cells: [18, 18, 18], spread: 0 %, seed: 1", .materials = ends[k]}, held);
     }
+    /* aggregates that swell: of surface alone, of few elements, of held ones, beside others that do not want it */
+    assert_symmetric_and_positive((case_options){.shape = "{box: {size: [2 m, 8 cm, 8 cm]}}",
+                                                 .fill = "cells: [50, 2, 2], spread: 90 %, seed: 1",
+                                                 .materials = ends[2]},
+                                  held);
+    assert_symmetric_and_positive((case_options){.shape = "{box: {size: [1 m, 1 m, 10 cm]}}",
+                                                 .fill = "cells: [20, 20, 2], spread: 90 %, seed: 1",
+                                                 .materials = ends[2]},
+                                  held);
+    assert_symmetric_and_positive(
+        (case_options){.fill = "cells: [8, 8, 8], spread: 90 %, seed: 1", .materials = ends[2], .sets = walls},
+        by_whole_elements);
+    assert_symmetric_and_positive(
+        (case_options){
+            .fill = "cells: [8, 8, 8], spread: 90 %, seed: 1",
+            .materials =
+                "  stone: {E: 1 Pa, nu: -0.95, density: 1 kg/m^3}\n  steel: {E: 1 Pa, nu: 0.3, density: 1 kg/m^3}",
+            .regions = "    regions:\n      - {material: steel, where: {half_space: {point: [50 cm, 0, 0], normal: [1, "
+                       "0, 0]}}}\n"},
+        held);
     assert_symmetric_and_positive(
         (case_options){
             .fill = "cells: [8, 8, 8], spread: 90 %, seed: 1",
@@ -155,7 +178,7 @@ static double *dense_matrix(bench_case *c, brc_multigrid *m, int64_t n)
         unit[k % (n / 2)] = 1;
         assert_done(c, brc_upload_state(c->simulation, to, unit, 3 * rows));
         unit[k % (n / 2)] = 0;
-        assert_done(c, brc_level_residual(m, 0, x, (brc_unknowns){NULL, NULL}, out));
+        assert_done(c, brc_multigrid_residual(m, x, (brc_unknowns){NULL, NULL}, out));
         assert_done(c, brc_upload_state(c->simulation, to, unit, 3 * rows));
         assert_done(c, brc_download(c->simulation, out.move, 8, a + k * n, n / 2));
         assert_done(c, brc_download(c->simulation, out.turn, 8, a + k * n + n / 2, n / 2));
@@ -207,7 +230,7 @@ static void cycles_converge_to_a_dense_solve(void **state)
     assert_done(&c, brc_download(c.simulation, b.turn, 8, exact + n / 2, n / 2));
     solve_dense(n, a, exact);
     for (int k = 0; k < CYCLES; ++k) { /* x += M (b - A x) */
-        assert_done(&c, brc_level_residual(m, 0, x, b, r));
+        assert_done(&c, brc_multigrid_residual(m, x, b, r));
         assert_done(&c, brc_multigrid_apply(m, r, z));
         assert_done(&c, brc_unknowns_add(c.simulation, 1, z, x));
     }
@@ -242,17 +265,24 @@ static double *run_case(case_options o, const char *stage, brc_preconditioner_ki
     return u;
 }
 
+static const char auxetic[] = "  stone: {E: 1 Pa, nu: -0.95, density: 1 kg/m^3}";
+
 static void threads_do_not_matter(void **state)
 {
     (void)state;
-    const case_options one = {.fill = "cells: [12, 12, 12], spread: 90 %, seed: 1", .n_threads = 1},
-                       two = {.fill = one.fill, .n_threads = 2};
-    int64_t n, iterations[2];
-    double *a = run_case(one, held, BRC_PRECONDITIONER_MULTIGRID, &n, &iterations[0]),
-           *b = run_case(two, held, BRC_PRECONDITIONER_MULTIGRID, &n, &iterations[1]);
-    assert_int_equal(iterations[0], iterations[1]);
-    assert_memory_equal(a, b, (size_t)n * sizeof *a);
-    free(a), free(b);
+    static const char *const materials[] = {NULL, auxetic};
+    for (int k = 0; k < 2; ++k) {
+        const case_options one = {.fill = "cells: [12, 12, 12], spread: 90 %, seed: 1",
+                                  .materials = materials[k],
+                                  .n_threads = 1},
+                           two = {.fill = one.fill, .materials = one.materials, .n_threads = 2};
+        int64_t n, iterations[2];
+        double *a = run_case(one, held, BRC_PRECONDITIONER_MULTIGRID, &n, &iterations[0]),
+               *b = run_case(two, held, BRC_PRECONDITIONER_MULTIGRID, &n, &iterations[1]);
+        assert_int_equal(iterations[0], iterations[1]);
+        assert_memory_equal(a, b, (size_t)n * sizeof *a);
+        free(a), free(b);
+    }
 }
 
 /* Multigrid and blocks give the same displacements to `near`; at least so many times fewer iterations. */
@@ -289,8 +319,7 @@ static void the_answer_is_that_of_blocks(void **state)
         held, 1e-7, 3);
     assert_same_answer((case_options){.fill = fill, .materials = "  stone: {E: 1 Pa, nu: 0.49, density: 1 kg/m^3}"},
                        held, 1e-7, 2);
-    assert_same_answer((case_options){.fill = fill, .materials = "  stone: {E: 1 Pa, nu: -0.95, density: 1 kg/m^3}"},
-                       held, 1e-7, 1);
+    assert_same_answer((case_options){.fill = fill, .materials = auxetic}, held, 1e-7, 1);
 }
 
 static void iterations_hardly_grow_with_the_body(void **state)
@@ -337,6 +366,15 @@ static void iterations_hardly_grow_at_the_ends_of_poissons_ratio(void **state)
             fail_msg("nu %s: %lld iterations, at 0.3 %lld", cases[k].nu, (long long)iterations[k],
                      (long long)iterations[0]);
     }
+    /* A cantilever: of strongly auxetic material it bends by parts that grow and shrink. Measured here: 1.8. */
+    for (int k = 0; k < 2; ++k)
+        free(run_case((case_options){.shape = "{box: {size: [1 m, 10 cm, 10 cm]}}",
+                                     .fill = "cells: [80, 8, 8], spread: 90 %, lloyd: 3, seed: 1",
+                                     .materials = k == 0 ? "  stone: {E: 1 Pa, nu: 0.3, density: 1 kg/m^3}" : auxetic},
+                      held, BRC_PRECONDITIONER_MULTIGRID, &n, &iterations[k]));
+    if (!(iterations[1] <= 2 * iterations[0]))
+        fail_msg("cantilever, nu -0.95: %lld iterations, at 0.3 %lld", (long long)iterations[1],
+                 (long long)iterations[0]);
 }
 
 /* The displacements of a slender body are so large beside its strains that rounding them leaves more than the
@@ -381,44 +419,6 @@ static void a_slender_body_ends_at_the_rounding_of_its_displacements(void **stat
         free(u);
         close_case(&c);
     }
-}
-
-/* Nothing holds the body: two tractions that balance. The strains are those of blocks; nothing is said of where the
- * body went. */
-static void a_free_body_stays_where_it_is(void **state)
-{
-    (void)state;
-    static const char freely[] = "  - name: pull\n    solver: {static: {finite_strain: false}}\n    loads:\n"
-                                 "      - traction: {set: x-, x: -1 uPa}\n      - traction: {set: x+, x: 1 uPa}\n";
-    bench_case c;
-    double *strain[2], largest = 0, off = 0;
-    int64_t n = 0;
-    for (int k = 0; k < 2; ++k) {
-        open_case(&c, (case_options){.fill = "cells: [8, 8, 8], spread: 90 %, seed: 1", .stages = freely});
-        c.scene->stages[0].preconditioner = k == 0 ? BRC_PRECONDITIONER_MULTIGRID : BRC_PRECONDITIONER_BLOCKS;
-        assert_done(&c, brc_simulation_run(c.simulation));
-        n = c.domain->n_elements;
-        strain[k] = calloc((size_t)(6 * n), sizeof *strain[k]);
-        assert_done(&c, brc_simulation_strain_stress(c.simulation, strain[k], NULL, NULL));
-        double *u = calloc((size_t)(3 * n), sizeof *u), mean[3] = {0}, span = 0;
-        assert_done(&c, brc_simulation_displacement(c.simulation, u));
-        for (int64_t i = 0; i < 3 * n; ++i) {
-            mean[i % 3] += u[i] / (double)n;
-            span = fmax(span, fabs(u[i]));
-        }
-        for (int i = 0; i < 3; ++i)
-            if (!(fabs(mean[i]) < 0.1 * span))
-                fail_msg("mean displacement %g, the largest %g", mean[i],
-                         span); /* multigrid's rigid motions were taken off */
-        free(u);
-        close_case(&c);
-    }
-    for (int64_t i = 0; i < 6 * n; ++i) {
-        largest = fmax(largest, fabs(strain[1][i]));
-        off = fmax(off, fabs(strain[0][i] - strain[1][i]));
-    }
-    if (!(off < 1e-7 * largest)) fail_msg("strains off by %g of %g", off, largest);
-    free(strain[0]), free(strain[1]);
 }
 
 /* Events: the levels stay while bonds break, and are made anew where iterations have grown; the same bonds break as
@@ -473,7 +473,6 @@ int main(void)
         cmocka_unit_test(cycles_converge_to_a_dense_solve),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(the_answer_is_that_of_blocks),
-        cmocka_unit_test(a_free_body_stays_where_it_is),
         cmocka_unit_test(events_keep_their_levels_and_renew_them),
         cmocka_unit_test(iterations_hardly_grow_with_the_body),
         cmocka_unit_test(iterations_hardly_grow_at_the_ends_of_poissons_ratio),

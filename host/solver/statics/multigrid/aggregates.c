@@ -89,9 +89,9 @@ static brc_status number_parts(brc_context *context, const brc_rows *rows, const
 }
 
 static brc_status place_aggregates(brc_context *context, const brc_nodes *nodes, const int32_t *aggregate, int64_t n,
-                                   brc_nodes *coarse)
+                                   int unknowns, brc_nodes *coarse)
 {
-    *coarse = (brc_nodes){.n = n};
+    *coarse = (brc_nodes){.n = n, .unknowns = unknowns};
     BRC_TRY(BRC_ALLOCATE(context, &coarse->place, n, "aggregates"));
     BRC_TRY(BRC_ALLOCATE(context, &coarse->body, n, "aggregates"));
     BRC_LOCAL(context, n, int64_t, count, "aggregates");
@@ -109,7 +109,7 @@ static brc_status place_aggregates(brc_context *context, const brc_nodes *nodes,
 }
 
 brc_status brc_aggregate(brc_context *context, const brc_rows *rows, const brc_nodes *nodes, const double *size,
-                         const double *spacing, int32_t *aggregate, brc_nodes *coarse)
+                         const double *spacing, int unknowns, int32_t *aggregate, brc_nodes *coarse)
 {
     BRC_FREED body_boxes *boxes = NULL;
     int64_t n;
@@ -125,7 +125,7 @@ brc_status brc_aggregate(brc_context *context, const brc_rows *rows, const brc_n
     }
     qsort(sorted, (size_t)nodes->n, sizeof *sorted, compare);
     BRC_TRY(number_parts(context, rows, sorted, box, aggregate, &n));
-    return place_aggregates(context, nodes, aggregate, n, coarse);
+    return place_aggregates(context, nodes, aggregate, n, unknowns, coarse);
 }
 
 void brc_nodes_free(brc_nodes *nodes)

@@ -22,7 +22,7 @@ static brc_status law_step(brc_multigrid *m, bool add, brc_buffer *r, brc_buffer
 }
 
 /* Force and torque of beams, added to the right side. */
-static brc_status own_residual(brc_multigrid *m, brc_unknowns x, brc_unknowns right, brc_unknowns out)
+static brc_status own_residual(brc_multigrid *m, brc_level_vector x, brc_level_vector right, brc_level_vector out)
 {
     brc_simulation *s = m->s;
     const int32_t n = s->layout->n_rows;
@@ -37,44 +37,80 @@ static brc_status own_residual(brc_multigrid *m, brc_unknowns x, brc_unknowns ri
     return BRC_OK;
 }
 
-brc_status brc_level_residual(brc_multigrid *m, int level, brc_unknowns x, brc_unknowns right, brc_unknowns out)
+/* out = right - A x of a level, 0 the finest; right.move NULL: none; right.turn NULL: no torques. */
+static brc_status level_residual(brc_multigrid *m, int level, brc_level_vector x, brc_level_vector right,
+                                 brc_level_vector out)
 {
     brc_simulation *s = m->s;
     const brc_level *l = &m->level[level];
     const brc_level_vectors v = {.move = x.move,
                                  .turn = x.turn,
+                                 .swell = x.swell,
                                  .force = out.move,
                                  .torque = out.turn,
+                                 .virial = out.swell,
+                                 .swells = x.swell != NULL,
                                  .n_right = right.turn   ? 2
                                             : right.move ? 1
                                                          : 0,
                                  .right_force = right.move,
-                                 .right_torque = right.turn};
+                                 .right_torque = right.turn,
+                                 .right_virial = right.swell};
     if (level > 0) return brc_pass_run_on(m->pass.matrix, l->n, &v, l, NULL);
     if (brc_solves_rotations(s->model)) return own_residual(m, x, right, out);
     BRC_TRY(brc_pass_run_on(m->pass.cells, s->n_groups, &v, NULL, NULL));
     return m->n_ground > 0 ? brc_pass_run_on(m->pass.ground, m->n_ground, &v, NULL, NULL) : BRC_OK;
 }
 
-brc_status brc_level_step(brc_multigrid *m, int level, double weight, bool add, brc_unknowns r, brc_unknowns x)
+static brc_level_vector of_solve(brc_unknowns v)
+{
+    return (brc_level_vector){.move = v.move, .turn = v.turn};
+}
+
+brc_status brc_multigrid_residual(brc_multigrid *m, brc_unknowns x, brc_unknowns right, brc_unknowns out)
+{
+    return level_residual(m, 0, of_solve(x), of_solve(right), of_solve(out));
+}
+
+/* x = [x +] weight D^-1 r. */
+static brc_status level_step(brc_multigrid *m, int level, double weight, bool add, brc_level_vector r,
+                             brc_level_vector x)
 {
     const brc_level *l = &m->level[level];
-    const brc_level_vectors v = {
-        .move = x.move, .turn = x.turn, .force = r.move, .torque = r.turn, .n_right = r.turn ? 2 : 1};
+    const brc_level_vectors v = {.move = x.move,
+                                 .turn = x.turn,
+                                 .swell = x.swell,
+                                 .force = r.move,
+                                 .torque = r.turn,
+                                 .virial = r.swell,
+                                 .swells = x.swell != NULL,
+                                 .n_right = r.turn ? 2 : 1};
     if (level == 0)
         return BRC_RUN_ON(m->pass.finest_step, m->s->n_groups, &v, l, {"weight", BRC_STATE(weight)},
                           {"add", BRC_INT(add ? 1 : 0)});
     return BRC_RUN_ON(m->pass.step, l->n, &v, l, {"weight", BRC_STATE(weight)}, {"add", BRC_INT(add ? 1 : 0)});
 }
 
-static brc_status dot(brc_simulation *s, int64_t n, brc_unknowns a, brc_unknowns b, double *out)
+static brc_status dot(brc_simulation *s, int64_t n, brc_level_vector a, brc_level_vector b, double *out)
 {
-    double turn;
+    double turn = 0, swell = 0;
     BRC_TRY(brc_vector_dot(s, a.move, b.move, 3 * n, out));
-    if (!a.turn) return BRC_OK;
-    BRC_TRY(brc_vector_dot(s, a.turn, b.turn, 3 * n, &turn));
-    *out += turn;
+    if (a.turn) BRC_TRY(brc_vector_dot(s, a.turn, b.turn, 3 * n, &turn));
+    if (a.swell) BRC_TRY(brc_vector_dot(s, a.swell, b.swell, n, &swell));
+    *out += turn + swell;
     return BRC_OK;
+}
+
+/* to = factor from. */
+static brc_status scale(brc_simulation *s, int64_t n, double factor, brc_level_vector from, brc_level_vector to)
+{
+    BRC_TRY(brc_buffer_fill_zero(to.move));
+    BRC_TRY(brc_buffer_fill_zero(to.turn));
+    BRC_TRY(brc_vector_axpy(s, 3 * n, factor, from.move, to.move));
+    BRC_TRY(brc_vector_axpy(s, 3 * n, factor, from.turn, to.turn));
+    if (!to.swell) return BRC_OK;
+    BRC_TRY(brc_buffer_fill_zero(to.swell));
+    return brc_vector_axpy(s, n, factor, from.swell, to.swell);
 }
 
 /* Power iteration with quotients of energies, v.A D^-1 A v / v.A v, from noise. */
@@ -94,20 +130,16 @@ brc_status brc_level_stiffest(brc_multigrid *m, int level, bool of_law, double *
     brc_memory_free(noise);
     BRC_TRY(status);
     BRC_TRY(brc_buffer_fill_zero(l->step.turn));
-    BRC_TRY(brc_level_step(m, level, 1, false, l->step, l->left)); /* in its free components */
-    const int64_t n = 3 * l->n;
-    const brc_unknowns force = {l->x.move, of_law ? NULL : l->x.turn};
+    if (l->step.swell) BRC_TRY(brc_buffer_fill_zero(l->step.swell));
+    BRC_TRY(level_step(m, level, 1, false, l->step, l->left)); /* in its free components */
+    const brc_level_vector force = {l->x.move, of_law ? NULL : l->x.turn, l->x.swell};
     for (int i = 0; i < ITERATIONS && above > 0 && below > 0; ++i) {
-        const double scale = 1 / sqrt(i == 0 ? 1 : above);
-        BRC_TRY(brc_buffer_fill_zero(l->step.move));
-        BRC_TRY(brc_buffer_fill_zero(l->step.turn));
-        BRC_TRY(brc_vector_axpy(s, n, -scale, l->left.move, l->step.move));
-        BRC_TRY(brc_vector_axpy(s, n, -scale, l->left.turn, l->step.turn));
+        BRC_TRY(scale(s, l->n, -1 / sqrt(i == 0 ? 1 : above), l->left, l->step));
         BRC_TRY(of_law ? law_residual(m, l->step.move, NULL, force.move) /* -A v */
-                       : brc_level_residual(m, level, l->step, (brc_unknowns){NULL, NULL}, force));
+                       : level_residual(m, level, l->step, (brc_level_vector){NULL, NULL, NULL}, force));
         BRC_TRY(dot(s, l->n, force, l->step, &below));
         BRC_TRY(of_law ? law_step(m, false, force.move, l->right.move, l->left.move)
-                       : brc_level_step(m, level, 1, false, force, l->left));
+                       : level_step(m, level, 1, false, force, l->left));
         BRC_TRY(dot(s, l->n, force, l->left, &above));
         below = -below;
     }
@@ -118,17 +150,23 @@ brc_status brc_level_stiffest(brc_multigrid *m, int level, bool of_law, double *
 static brc_status step_again(brc_multigrid *m, int level)
 {
     brc_level *l = &m->level[level];
-    BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
-    return brc_level_step(m, level, l->weight, true, l->left, l->x);
+    BRC_TRY(level_residual(m, level, l->x, l->right, l->left));
+    return level_step(m, level, l->weight, true, l->left, l->x);
 }
 
 static brc_status coarsest(brc_multigrid *m, int level)
 {
     enum { STEPS = 8 };
     brc_level *l = &m->level[level];
-    const brc_level_vectors v = {.move = l->x.move, .turn = l->x.turn, .force = l->right.move, .torque = l->right.turn};
+    const brc_level_vectors v = {.move = l->x.move,
+                                 .turn = l->x.turn,
+                                 .swell = l->x.swell,
+                                 .force = l->right.move,
+                                 .torque = l->right.turn,
+                                 .virial = l->right.swell,
+                                 .swells = l->x.swell != NULL};
     if (m->inverse) return brc_pass_run_on(m->pass.coarsest, l->n, &v, NULL, NULL);
-    BRC_TRY(brc_level_step(m, level, l->weight, false, l->right, l->x));
+    BRC_TRY(level_step(m, level, l->weight, false, l->right, l->x));
     for (int i = 1; i < STEPS; ++i)
         BRC_TRY(step_again(m, level));
     return BRC_OK;
@@ -139,17 +177,21 @@ static brc_status cycle(brc_multigrid *m, int level)
 {
     brc_level *l = &m->level[level], *c = l + 1;
     if (level == m->n_levels - 1) return coarsest(m, level);
-    BRC_TRY(brc_level_step(m, level, l->weight, false, l->right, l->x));
+    BRC_TRY(level_step(m, level, l->weight, false, l->right, l->x));
     for (int i = 1; i < m->coarse_steps; ++i)
         BRC_TRY(step_again(m, level));
-    BRC_TRY(brc_level_residual(m, level, l->x, l->right, l->left));
-    const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
-                            up = {.move = l->x.move, .turn = l->x.turn};
+    BRC_TRY(level_residual(m, level, l->x, l->right, l->left));
+    const bool swells = c->x.swell != NULL;
+    const brc_level_vectors down = {.force = l->left.move,
+                                    .torque = l->left.turn,
+                                    .virial = l->left.swell,
+                                    .swells = swells},
+                            up = {.move = l->x.move, .turn = l->x.turn, .swell = l->x.swell, .swells = swells};
     BRC_TRY(BRC_RUN_ON(m->pass.restriction, c->n, &down, l, {"coarse_force", BRC_BUF(c->right.move)},
-                       {"coarse_torque", BRC_BUF(c->right.turn)}));
+                       {"coarse_torque", BRC_BUF(c->right.turn)}, {"coarse_virial", BRC_BUF(c->right.swell)}));
     BRC_TRY(cycle(m, level + 1));
     BRC_TRY(BRC_RUN_ON(m->pass.prolong, l->n, &up, l, {"coarse_move", BRC_BUF(c->x.move)},
-                       {"coarse_turn", BRC_BUF(c->x.turn)}));
+                       {"coarse_turn", BRC_BUF(c->x.turn)}, {"coarse_swell", BRC_BUF(c->x.swell)}));
     for (int i = 1; i < m->coarse_steps; ++i)
         BRC_TRY(step_again(m, level));
     return step_again(m, level);
@@ -158,31 +200,32 @@ static brc_status cycle(brc_multigrid *m, int level)
 /* The same on the finest level, whose P is not stored. With S = 1 - weight D^-1 A, P = S T: what P^T gives of a
  * residual is T^T of the one that another step of that weight leaves, and P likewise. So that step is kept before and
  * after the coarser levels, for no evaluation of A more, and a longer one goes with it. */
-static brc_status finest_cycle(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
+static brc_status finest_cycle(brc_multigrid *m, brc_level_vector r, brc_level_vector z)
 {
     static const double longer = 1.3; /* over the kept step (docs/notebook/theory.md T6); 1.5 would be 2 / lambda_max */
     brc_level *l = &m->level[0], *c = l + 1;
-    const brc_unknowns x = {z.move, z.turn ? z.turn : l->x.turn};
+    const brc_level_vector x = {z.move, z.turn ? z.turn : l->x.turn, NULL};
     if (!m->short_cycle) {
-        BRC_TRY(brc_level_step(m, 0, longer * l->weight, false, r, x));
-        BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
+        BRC_TRY(level_step(m, 0, longer * l->weight, false, r, x));
+        BRC_TRY(level_residual(m, 0, x, r, l->left));
     }
-    BRC_TRY(brc_level_step(m, 0, l->weight, !m->short_cycle, m->short_cycle ? r : l->left, x));
-    BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
+    BRC_TRY(level_step(m, 0, l->weight, !m->short_cycle, m->short_cycle ? r : l->left, x));
+    BRC_TRY(level_residual(m, 0, x, r, l->left));
     if (m->n_levels > 1) {
-        const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn},
-                                up = {.move = x.move, .turn = x.turn};
+        const bool swells = c->x.swell != NULL;
+        const brc_level_vectors down = {.force = l->left.move, .torque = l->left.turn, .swells = swells},
+                                up = {.move = x.move, .turn = x.turn, .swells = swells};
         BRC_TRY(BRC_RUN_ON(m->pass.collect, c->n, &down, l, {"whole_force", BRC_BUF(c->right.move)},
-                           {"whole_torque", BRC_BUF(c->right.turn)}));
+                           {"whole_torque", BRC_BUF(c->right.turn)}, {"whole_virial", BRC_BUF(c->right.swell)}));
         BRC_TRY(cycle(m, 1));
         BRC_TRY(BRC_RUN_ON(m->pass.spread, l->n, &up, l, {"whole_move", BRC_BUF(c->x.move)},
-                           {"whole_turn", BRC_BUF(c->x.turn)}));
-        BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
+                           {"whole_turn", BRC_BUF(c->x.turn)}, {"whole_swell", BRC_BUF(c->x.swell)}));
+        BRC_TRY(level_residual(m, 0, x, r, l->left));
     }
-    BRC_TRY(brc_level_step(m, 0, l->weight, true, l->left, x));
+    BRC_TRY(level_step(m, 0, l->weight, true, l->left, x));
     if (m->short_cycle) return BRC_OK;
-    BRC_TRY(brc_level_residual(m, 0, x, r, l->left));
-    return brc_level_step(m, 0, longer * l->weight, true, l->left, x);
+    BRC_TRY(level_residual(m, 0, x, r, l->left));
+    return level_step(m, 0, longer * l->weight, true, l->left, x);
 }
 
 /* Where the law is far from the stand-in, a step of the law itself before and after. Where its volume is stiff they
@@ -190,8 +233,8 @@ static brc_status finest_cycle(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
 brc_status brc_multigrid_apply(brc_multigrid *m, brc_unknowns r, brc_unknowns z)
 {
     const brc_level *l = &m->level[0];
-    const brc_unknowns left = {l->right.move, NULL}, way = {l->step.move, NULL};
-    if (!(m->law_weight > 0)) return finest_cycle(m, r, z);
+    const brc_level_vector left = {.move = l->right.move}, way = {.move = l->step.move};
+    if (!(m->law_weight > 0)) return finest_cycle(m, of_solve(r), of_solve(z));
     BRC_TRY(law_step(m, false, r.move, way.move, z.move));
     BRC_TRY(law_residual(m, z.move, r.move, left.move));
     BRC_TRY(finest_cycle(m, left, way));

@@ -144,9 +144,10 @@ int32_t brc_fine_ground(const brc_fine *f, int64_t e)
     return -1;
 }
 
-static int32_t fine_row(const void *of, int64_t e, int32_t *column, brc_block *block)
+static int32_t fine_row(const void *of, int64_t e, int32_t *column, double *blocks)
 {
     const brc_fine *f = of;
+    brc_block *block = (brc_block *)blocks;
     const brc_domain *d = f->s->domain;
     int32_t n = 1;
     column[0] = (int32_t)e;
@@ -281,11 +282,13 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
     BRC_TRY(BRC_ALLOCATE(s->context, &f->volume_modulus, s->scene->n_materials, "levels"));
     for (int32_t m = 0; m < s->scene->n_materials; ++m)
         f->moduli[m] = brc_bond_moduli_of(&s->elastic[m]);
+    f->coarse_unknowns = 6;
     for (int32_t m = 0; m < s->scene->n_materials && !s->model->turns; ++m) {
         const brc_elastic *k = &s->elastic[m];
         f->volume_modulus[m] = volume_modulus(k);
         f->volumes |= f->volume_modulus[m] != 0;
         f->stiff_volume |= is_stiff(k);
+        if (is_soft(k)) f->coarse_unknowns = 7;
     }
     if (d->here) BRC_TRY(bring_areas(s, f));
     if (s->fracture) BRC_TRY(brc_fracture_whole_at(s, moment, &f->whole));
@@ -294,7 +297,7 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
     f->soft = s->model->statics->soft > 0                         ? s->model->statics->soft
               : brc_device_get_precision(s->device) == BRC_SINGLE ? 1e-5
                                                                   : 1e-10;
-    f->nodes = (brc_nodes){.n = d->n_elements};
+    f->nodes = (brc_nodes){.n = d->n_elements, .unknowns = 6};
     BRC_TRY(BRC_ALLOCATE(s->context, &f->nodes.place, d->n_elements, "levels"));
     BRC_TRY(BRC_ALLOCATE(s->context, &f->nodes.body, d->n_elements, "levels"));
     BRC_TRY(BRC_ALLOCATE(s->context, &f->nodes.free_bits, d->n_elements, "levels"));
@@ -304,7 +307,7 @@ brc_status brc_fine_create(brc_simulation *s, int64_t moment, brc_fine *f)
     find_free(s, f);
     BRC_TRY(collect_ground(s, f));
     BRC_TRY(find_spacing(s, f));
-    f->rows = (brc_rows){.n = d->n_elements, .of = f, .row = fine_row};
+    f->rows = (brc_rows){.n = d->n_elements, .unknowns = 6, .of = f, .row = fine_row};
     for (int64_t e = 0; e < d->n_elements; ++e)
         if (d->row_start[e + 1] - d->row_start[e] >= f->rows.most)
             f->rows.most = (int32_t)(d->row_start[e + 1] - d->row_start[e]) + 1;

@@ -14,12 +14,15 @@ typedef struct brc_bond_moduli {
 } brc_bond_moduli;
 brc_bond_moduli brc_bond_moduli_of(const brc_elastic *elastic);
 
+typedef double brc_block[36]; /* of two elements, by rows */
+
 typedef struct brc_fine {
     const brc_simulation *s;
     brc_bond_moduli *moduli; /* [n_materials] */
     double *volume_modulus;  /* [n_materials] what coarser levels add to lambda, that springs cannot have [Pa] */
     bool volumes;            /* some do */
     bool stiff_volume;       /* that of some material is, nearly incompressible */
+    int coarse_unknowns;     /* of a node of coarser levels: seven where the volume of some material is soft */
     uint8_t *whole;          /* [n_half_edges] 0: broken; NULL: none is */
     double *area; /* [n_bonds] of faces, where ranks have the domain between them [m^2]; NULL: the domain has all */
     double soft;  /* what the diagonal is raised by, so that rigid motions of pieces meet something [-] */
@@ -40,8 +43,8 @@ void brc_fine_free(brc_fine *fine);
 int32_t brc_fine_ground(const brc_fine *fine, int64_t element);
 /* Area of the face of a half-edge [m^2]. */
 double brc_fine_area(const brc_fine *fine, int64_t half_edge);
-/* Add to the matrix of the first aggregates what their rigid motions do to the volumes of cells. */
+/* Add to the matrix of the first aggregates what their motions do to the volumes of cells. */
 brc_status brc_fine_add_volumes(const brc_fine *fine, const int32_t *aggregate, const brc_nodes *coarse,
-                                brc_stored_rows *rows);
+                                const brc_prolongation *p, brc_stored_rows *rows);
 
 #endif

@@ -17,11 +17,15 @@ static brc_status make_passes(brc_multigrid *m)
 {
     static const brc_value_row of_launch[] = {{"move", BRC_VALUE_BUFFER, OF_LAUNCH(move)},
                                               {"turn", BRC_VALUE_BUFFER, OF_LAUNCH(turn)},
+                                              {"swell", BRC_VALUE_BUFFER, OF_LAUNCH(swell)},
                                               {"force", BRC_VALUE_BUFFER, OF_LAUNCH(force)},
                                               {"torque", BRC_VALUE_BUFFER, OF_LAUNCH(torque)},
+                                              {"virial", BRC_VALUE_BUFFER, OF_LAUNCH(virial)},
+                                              {"swells", BRC_VALUE_BOOL, OF_LAUNCH(swells)},
                                               {"n_right", BRC_VALUE_INT, OF_LAUNCH(n_right)},
                                               {"right_force", BRC_VALUE_BUFFER, OF_LAUNCH(right_force)},
-                                              {"right_torque", BRC_VALUE_BUFFER, OF_LAUNCH(right_torque)}};
+                                              {"right_torque", BRC_VALUE_BUFFER, OF_LAUNCH(right_torque)},
+                                              {"right_virial", BRC_VALUE_BUFFER, OF_LAUNCH(right_virial)}};
     static const brc_value_row of_finest[] = {
         {"vector", BRC_VALUE_BUFFER, OF_ALL(vector)},       {"number", BRC_VALUE_BUFFER, OF_ALL(number)},
         {"by_branch", BRC_VALUE_BOOL, OF_ALL(by_branch)},   {"axial", BRC_VALUE_REAL, OF_ALL(moduli.axial)},
@@ -62,10 +66,10 @@ static brc_status make_passes(brc_multigrid *m)
                   {&p->matrix, &matrix, "multigrid_matrix", NULL},
                   {&p->finest_step, &matrix, "multigrid_finest_step", "weight add"},
                   {&p->step, &matrix, "multigrid_step", "weight add"},
-                  {&p->collect, &aggregates, "multigrid_collect", "whole_force whole_torque"},
-                  {&p->spread, &aggregates, "multigrid_spread", "whole_move whole_turn"},
-                  {&p->prolong, &transfer, "multigrid_prolong", "coarse_move coarse_turn"},
-                  {&p->restriction, &transfer, "multigrid_restrict", "coarse_force coarse_torque"}};
+                  {&p->collect, &aggregates, "multigrid_collect", "whole_force whole_torque whole_virial"},
+                  {&p->spread, &aggregates, "multigrid_spread", "whole_move whole_turn whole_swell"},
+                  {&p->prolong, &transfer, "multigrid_prolong", "coarse_move coarse_turn coarse_swell"},
+                  {&p->restriction, &transfer, "multigrid_restrict", "coarse_force coarse_torque coarse_virial"}};
     m->by_branch = s->model->turns; /* which cells that turn store */
     m->vector = m->by_branch ? brc_offset_of(s) : brc_area_of(s);
     m->number = m->by_branch ? brc_area_of(s) : brc_ratio_of(s);
@@ -104,7 +108,7 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
     BRC_FREED double *moduli = NULL;
     BRC_FREED int32_t *rows = NULL;
     m->moduli = f->moduli[s->material_of_element[0]];
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_fields, 0, m));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_fields, 0, m));
     if (brc_solves_rotations(s->model)) return BRC_OK;
     if (brc_device_has_many_materials(s->device)) {
         BRC_TRY(BRC_ALLOCATE(s->context, &moduli, 3 * (int64_t)s->layout->n_rows, "multigrid"));
@@ -121,7 +125,7 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
         BRC_TRY(BRC_ALLOCATE(s->context, &rows, f->n_ground, "multigrid"));
         for (int32_t i = 0; i < f->n_ground; ++i)
             rows[i] = s->layout->row_of_element[f->ground_element[i]];
-        BRC_TRY(brc_multigrid_list(s, &brc_multigrid_ground_fields, f->n_ground, m));
+        BRC_TRY(brc_multigrid_list(m, &brc_multigrid_ground_fields, f->n_ground, m));
         BRC_TRY(brc_upload_int(m->ground_element, rows, f->n_ground));
         BRC_TRY(brc_upload_state(s, m->ground, f->ground[0], 36 * (int64_t)f->n_ground)); /* symmetric */
     }
@@ -129,7 +133,7 @@ static brc_status upload_bonds(brc_multigrid *m, const brc_fine *f)
 }
 
 /* [n_elements][21] to [n_slices][21][C]. */
-static brc_status upload_inverse(brc_simulation *s, brc_buffer *out, const double (*inverse)[21])
+static brc_status upload_inverse(brc_simulation *s, brc_buffer *out, const double *inverse)
 {
     const brc_layout *layout = s->layout;
     BRC_LOCAL(s->context, 21 * (int64_t)layout->n_rows, double, sliced, "multigrid");
@@ -137,19 +141,19 @@ static brc_status upload_inverse(brc_simulation *s, brc_buffer *out, const doubl
         const int32_t e = layout->element_of_row[r];
         double *to = sliced + 21 * (int64_t)(r / layout->slice * layout->slice) + r % layout->slice;
         for (int k = 0; e >= 0 && k < 21; ++k)
-            to[k * layout->slice] = inverse[e][k];
+            to[k * layout->slice] = inverse[21 * (int64_t)e + k];
     }
     return brc_upload_state(s, out, sliced, 21 * (int64_t)layout->n_rows);
 }
 
 /* The finest level: inverse [n_elements][21]. */
-static brc_status upload_finest(brc_multigrid *m, const brc_fine *f, const double (*inverse)[21])
+static brc_status upload_finest(brc_multigrid *m, const brc_fine *f, const double *inverse)
 {
     brc_simulation *s = m->s;
     brc_level *l = &m->level[0];
     l->n = s->layout->n_rows;
     BRC_TRY(upload_bonds(m, f));
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_finest_fields, 0, l));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_finest_fields, 0, l));
     BRC_TRY(upload_inverse(s, l->inverse, inverse));
     return upload_rows(s, l->free_bits, NULL, f->nodes.free_bits, 0);
 }
@@ -159,7 +163,7 @@ static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, co
 {
     brc_simulation *s = m->s;
     brc_level *l = &m->level[0];
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_aggregate_fields, coarse->n, l));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_aggregate_fields, coarse->n, l));
     BRC_TRY(upload_rows(s, l->aggregate, aggregate, NULL, -1));
     BRC_LOCAL(s->context, coarse->n + 2, int32_t, start, "multigrid");
     BRC_LOCAL(s->context, nodes->n, int32_t, member, "multigrid");
@@ -179,52 +183,61 @@ static brc_status upload_aggregates(brc_multigrid *m, const brc_nodes *nodes, co
     return brc_upload_coeff(s, l->arm, arm, 3 * (int64_t)s->layout->n_rows);
 }
 
-/* Blocks [count][6][6] to those of a device buffer, each by columns. */
-static brc_status upload_blocks(brc_simulation *s, brc_buffer *out, int64_t count, const brc_block *wide,
-                                const brc_narrow *narrow)
+/* Where a block has the number of a row and a column on the device (multigrid.cl). */
+static int place_in_block(int r, int c)
+{
+    if (r < 6 && c < 6) return 6 * c + r;
+    return r < 6 ? 36 + r : 42 + c;
+}
+
+/* Blocks of coarser levels, by rows, to those of a device buffer. */
+static brc_status upload_blocks(const brc_multigrid *m, brc_buffer *out, int64_t count, const double *wide,
+                                const float *narrow)
 {
     enum { CHUNK = 4096 };
-    const int bytes = brc_state_bytes(s);
-    BRC_LOCAL(s->context, 36 * CHUNK, double, part, "multigrid");
-    BRC_LOCAL(s->context, 36 * CHUNK, float, single, "multigrid");
+    const int bytes = brc_state_bytes(m->s), each = m->coarse_unknowns, size = each * each;
+    BRC_LOCAL(m->s->context, size * CHUNK, double, part, "multigrid");
+    BRC_LOCAL(m->s->context, size * CHUNK, float, single, "multigrid");
     for (int64_t first = 0; first < count; first += CHUNK) {
         const int64_t n = count - first < CHUNK ? count - first : CHUNK;
         for (int64_t k = 0; k < n; ++k)
-            for (int r = 0; r < 6; ++r)
-                for (int c = 0; c < 6; ++c) {
-                    const double value = wide ? wide[first + k][6 * r + c] : (double)narrow[first + k][6 * r + c];
-                    part[36 * k + 6 * c + r] = value;
-                    single[36 * k + 6 * c + r] = (float)value;
+            for (int r = 0; r < each; ++r)
+                for (int c = 0; c < each; ++c) {
+                    const int64_t from = size * (first + k) + each * r + c, to = size * k + place_in_block(r, c);
+                    part[to] = wide ? wide[from] : (double)narrow[from];
+                    single[to] = (float)part[to];
                 }
-        BRC_TRY(brc_buffer_write(out, 36 * first * bytes, bytes == 8 ? (const void *)part : (const void *)single,
-                                 36 * n * bytes));
+        BRC_TRY(brc_buffer_write(out, size * first * bytes, bytes == 8 ? (const void *)part : (const void *)single,
+                                 size * n * bytes));
     }
     return BRC_OK;
 }
 
-static brc_status upload_prolongation(brc_simulation *s, brc_level *l, const brc_prolongation *p)
+static brc_status upload_prolongation(const brc_multigrid *m, brc_level *l, const brc_prolongation *p)
 {
+    brc_simulation *s = m->s;
     const int64_t n = p->start[p->n];
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_start_fields, p->n, l));
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_coarse_fields, p->n_coarse, l));
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_transfer_fields, n, l));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_start_fields, p->n, l));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_coarse_fields, p->n_coarse, l));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_transfer_fields, n, l));
     BRC_TRY(upload_narrowed(s, l->p_start, p->start, p->n + 1));
     BRC_TRY(brc_upload_int(l->p_column, p->column, n));
-    BRC_TRY(upload_blocks(s, l->p_block, n, NULL, (const brc_narrow *)p->block));
+    BRC_TRY(upload_blocks(m, l->p_block, n, NULL, p->block));
     BRC_TRY(upload_narrowed(s, l->p_column_start, p->column_start, p->n_coarse + 1));
     return brc_upload_int(l->p_entry, p->entry[0], 2 * n);
 }
 
-static brc_status upload_matrix(brc_simulation *s, brc_level *l, const brc_stored_rows *rows,
-                                const double (*inverse)[21])
+static brc_status upload_matrix(const brc_multigrid *m, brc_level *l, const brc_stored_rows *rows,
+                                const double *inverse)
 {
+    brc_simulation *s = m->s;
     l->n = rows->n;
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_level_fields, rows->n, l));
-    BRC_TRY(brc_multigrid_list(s, &brc_multigrid_matrix_fields, rows->start[rows->n], l));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_level_fields, rows->n, l));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_matrix_fields, rows->start[rows->n], l));
     BRC_TRY(upload_narrowed(s, l->start, rows->start, rows->n + 1));
     BRC_TRY(brc_upload_int(l->column, rows->column, rows->start[rows->n]));
-    BRC_TRY(upload_blocks(s, l->block, rows->start[rows->n], (const brc_block *)rows->block, NULL));
-    return brc_upload_state(s, l->inverse, inverse[0], 21 * rows->n);
+    BRC_TRY(upload_blocks(m, l->block, rows->start[rows->n], rows->block, NULL));
+    return brc_upload_state(s, l->inverse, inverse, brc_triangle(rows->unknowns) * rows->n);
 }
 
 /* Two thirds of the way of a step that the stiffest direction bears just so. given: 0, or the weight. */
@@ -245,7 +258,7 @@ static brc_status weigh_law(brc_multigrid *m, double given)
     static const double part = 1.5, above = 1.05;
     double stiffest;
     BRC_LOCAL(m->s->context, 6 * (int64_t)m->s->layout->n_rows, double, blocks, "multigrid");
-    BRC_TRY(brc_multigrid_list(m->s, &brc_multigrid_law_fields, 0, m));
+    BRC_TRY(brc_multigrid_list(m, &brc_multigrid_law_fields, 0, m));
     BRC_TRY(m->s->model->statics->blocks(m->s, blocks));
     BRC_TRY(brc_upload_state(m->s, m->law_inverse, blocks, 6 * (int64_t)m->s->layout->n_rows));
     m->law_weight = given > 0 ? given : 1;
@@ -260,11 +273,12 @@ static brc_status solve_coarsest(brc_multigrid *m, const brc_stored_rows *rows)
 {
     brc_simulation *s = m->s;
     bool done = false;
+    const int64_t n = rows->unknowns * rows->n;
     if (rows->n > MOST_SOLVED) return BRC_OK;
-    BRC_LOCAL(s->context, 36 * rows->n * rows->n, double, inverse, "coarsest level");
+    BRC_LOCAL(s->context, n * n, double, inverse, "coarsest level");
     brc_status status = brc_invert_rows(s->context, rows, inverse, &done);
-    if (status == BRC_OK && done) status = brc_multigrid_list(s, &brc_multigrid_coarsest_fields, rows->n * rows->n, m);
-    if (status == BRC_OK && done) status = brc_upload_state(s, m->inverse, inverse, 36 * rows->n * rows->n);
+    if (status == BRC_OK && done) status = brc_multigrid_list(m, &brc_multigrid_coarsest_fields, rows->n * rows->n, m);
+    if (status == BRC_OK && done) status = brc_upload_state(s, m->inverse, inverse, n * n);
     return status;
 }
 
@@ -273,7 +287,7 @@ typedef struct made_level {
     brc_rows rows;
     brc_stored_rows stored;
     brc_nodes nodes;
-    double (*inverse)[21];
+    double *inverse;
 } made_level;
 
 /* The nodes of the finest level are those of `fine`. */
@@ -295,20 +309,23 @@ static brc_status make_next(brc_multigrid *m, const brc_fine *f, made_level *mad
     brc_status status = BRC_OK;
     *more = false;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &aggregate, made->rows.n, "aggregates"));
-    BRC_TRY_OR(cleanup, brc_aggregate(s->context, &made->rows, &made->nodes, size, f->spacing, aggregate, &next.nodes));
+    BRC_TRY_OR(cleanup, brc_aggregate(s->context, &made->rows, &made->nodes, size, f->spacing, m->coarse_unknowns,
+                                      aggregate, &next.nodes));
     if (next.nodes.n == 0 || (double)next.nodes.n > 0.7 * (double)made->rows.n || m->n_levels == BRC_MOST_LEVELS)
         goto cleanup;
     BRC_TRY_OR(cleanup, brc_prolongation_create(s->context, &made->rows, &made->nodes, aggregate, &next.nodes,
-                                                m->level[level].weight, (const double(*)[21])made->inverse, &p));
+                                                m->level[level].weight, made->inverse, &p));
     BRC_TRY_OR(cleanup, brc_coarse_rows(s->context, &made->rows, &p, &next.stored));
-    if (level == 0 && f->volumes) BRC_TRY_OR(cleanup, brc_fine_add_volumes(f, aggregate, &next.nodes, &next.stored));
+    if (level == 0 && f->volumes)
+        BRC_TRY_OR(cleanup, brc_fine_add_volumes(f, aggregate, &next.nodes, &p, &next.stored));
     if (brc_memory_held() > m->most_held) m->most_held = brc_memory_held();
     BRC_TRY_OR(cleanup, level == 0 ? upload_aggregates(m, &made->nodes, aggregate, &next.nodes)
-                                   : upload_prolongation(s, &m->level[level], &p));
+                                   : upload_prolongation(m, &m->level[level], &p));
     next.rows = brc_rows_of(&next.stored);
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &next.inverse, next.nodes.n, "levels"));
+    BRC_TRY_OR(cleanup,
+               BRC_ALLOCATE(s->context, &next.inverse, brc_triangle(m->coarse_unknowns) * next.nodes.n, "levels"));
     BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &next.rows, NULL, next.inverse));
-    BRC_TRY_OR(cleanup, upload_matrix(s, &m->level[m->n_levels++], &next.stored, (const double(*)[21])next.inverse));
+    BRC_TRY_OR(cleanup, upload_matrix(m, &m->level[m->n_levels++], &next.stored, next.inverse));
     BRC_TRY_OR(cleanup, weigh(m, m->n_levels - 1, 0));
     *more = true;
     const made_level before = *made;
@@ -335,9 +352,9 @@ static brc_status make_levels(brc_multigrid *m, const brc_fine *f, double weight
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &size, n_bodies, "levels"));
     for (int32_t b = 0; b < n_bodies; ++b)
         size[b] = box_in_spacings * f->spacing[b];
-    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &made.inverse, f->nodes.n, "levels"));
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &made.inverse, brc_triangle(f->rows.unknowns) * f->nodes.n, "levels"));
     BRC_TRY_OR(cleanup, brc_invert_blocks(s->context, &made.rows, f->nodes.free_bits, made.inverse));
-    BRC_TRY_OR(cleanup, upload_finest(m, f, (const double(*)[21])made.inverse));
+    BRC_TRY_OR(cleanup, upload_finest(m, f, made.inverse));
     m->n_levels = 1;
     BRC_TRY_OR(cleanup, weigh(m, 0, weight));
     while (more && made.rows.n > MOST_SOLVED) {
@@ -364,6 +381,7 @@ brc_status brc_multigrid_create(brc_simulation *s, brc_multigrid_origin *origin,
     BRC_TRY(make_passes(m));
     if (!(origin->weight > 0) && s->fracture) origin->moment = brc_fracture_moment(s);
     BRC_TRY(brc_fine_create(s, origin->moment, &fine));
+    m->coarse_unknowns = fine.coarse_unknowns;
     BRC_TRY(make_levels(m, &fine, origin->weight));
     m->coarse_steps = fine.volumes ? 3 : 1;
     m->short_cycle = fine.stiff_volume;

@@ -28,9 +28,8 @@ void brc_multigrid_free(brc_multigrid **multigrid);
 /* z = M r. r.turn NULL: no torques; z.turn NULL: rotations are not asked for. r and z do not overlap. */
 brc_status brc_multigrid_apply(brc_multigrid *multigrid, brc_unknowns r, brc_unknowns z);
 
-/* out = right - A x of a level, 0 the finest; right.move NULL: none; right.turn NULL: no torques. */
-brc_status brc_level_residual(brc_multigrid *multigrid, int level, brc_unknowns x, brc_unknowns right,
-                              brc_unknowns out);
+/* out = right - A x of the finest level; right.move NULL: none; right.turn NULL: no torques. */
+brc_status brc_multigrid_residual(brc_multigrid *multigrid, brc_unknowns x, brc_unknowns right, brc_unknowns out);
 
 /* What it is made of. */
 typedef struct brc_multigrid_report {
