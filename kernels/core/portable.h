@@ -282,7 +282,6 @@ LAW int brc_lane_some(lane_mask which)
  * every page of 4 KiB. What is used soon goes into every cache, what is used later into the second. */
 #if !defined(__OPENCL_VERSION__) && W > 1
 #define ROWS_AHEAD (256 / W)
-#define GATHERS_AHEAD 2
 #define RECORDS_AHEAD 512 /* rows; the host plans `ahead` with it (host/solver/core/layout.h) */
 #define PREFETCH(p, at) __builtin_prefetch((p) + (at), 0, 3)
 #define PREFETCH_LATER(p, at) __builtin_prefetch((p) + (at), 0, 2)

@@ -299,20 +299,6 @@ LAW void states_later(GLOBAL const state *restrict p, int width, GLOBAL const in
     RECORDS_LATER(p, width, ahead, first);
 }
 
-/* Prefetch of short records of the state, [element][width], that the row entry GATHERS_AHEAD slots further on will
- * gather. */
-LAW void gathers_ahead(GLOBAL const state *restrict p, int width, GLOBAL const int *restrict neighbour, int slot,
-                       int last, int first_lane)
-{
-#ifdef ROWS_AHEAD
-    const int next = slot + GATHERS_AHEAD < last ? slot + GATHERS_AHEAD : slot;
-    const int *row = neighbour + (brc_size)next * C + (brc_size)first_lane;
-    for (int l = 0; l < W; ++l) PREFETCH(p, (brc_size)row[l] * (brc_size)width);
-#else
-    (void)p, (void)width, (void)neighbour, (void)slot, (void)last, (void)first_lane;
-#endif
-}
-
 /* ---- scalars, for kernels over short lists of faces or special elements ---- */
 typedef struct {
     coeff x, y, z;
