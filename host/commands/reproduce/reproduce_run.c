@@ -194,6 +194,7 @@ static brc_status simulate_samples(brc_campaign *campaign, brc_outcome *outcome,
         if (!outcome->note[0]) memcpy(outcome->note, one.note, sizeof one.note);
         for (int v = 0; v < one.n_values; ++v) { /* by name: a sample in which nothing broke has fewer */
             int to = 0;
+            if (brc_outcome_find(&one, one.values[v].name) != &one.values[v]) continue; /* a measure goes first */
             while (to < outcome->n_values && strcmp(outcome->values[to].name, one.values[v].name) != 0)
                 ++to;
             if (to == outcome->n_values)

@@ -166,8 +166,9 @@ static int reproduce(const char *bound)
         "version: 1\nmaterials: {m: {E: 20 GPa, nu: 0.3, density: 1000 kg/m^3}}\n"
         "bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {elements: 27}}}]\n"
         "stages: [{name: pull, solver: {dynamic: {steps: 10}}, initial: [{affine: {gradient: {x: [1e-4, 0, 0]}}}]}]\n"
-        "sensors: {total: {energy: total}}\nmeasure: {energy: {mean: {of: total}}}\noutput: {frames: none, picture: "
-        "false}\nX\n",
+        "sensors: {total: {energy: total}, error: {energy: closure}}\n"
+        "measure: {energy: {mean: {of: total}}, closure: {peak: {of: error}}}\n"
+        "output: {frames: none, picture: false}\nX\n",
         bound);
     assert_int_equal(system(command), 0);
     return test_program("reproduce one --folder made-cases --threads 1 --device cpu -o made-cases/out");
@@ -187,6 +188,17 @@ static void a_missed_bound_ends_with_one_and_a_kept_one_with_zero(void **state)
     assert_int_equal(system("rm -r made-cases"), 0);
 }
 
+/* A measure by the name of a value that every run has stands in its place, over seeds too. */
+static void a_measure_goes_before_a_value_of_its_name(void **state)
+{
+    (void)state;
+    assert_int_equal(reproduce("bound: 1e9}}}\n  - {name: s, seeds: 2, rows: {closure: {at_most: 1}, "
+                               "energy: {reference: 1 J, bound: 1e9"),
+                     0);
+    assert_non_null(strstr(test_program_stdout(), "3 of 3 bounded rows within their bounds"));
+    assert_int_equal(system("rm -r made-cases"), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +210,7 @@ int main(void)
         cmocka_unit_test(difference_is_largest_over_largest),
         cmocka_unit_test(a_missing_run_gives_no_value_and_a_reason),
         cmocka_unit_test(a_missed_bound_ends_with_one_and_a_kept_one_with_zero),
+        cmocka_unit_test(a_measure_goes_before_a_value_of_its_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
