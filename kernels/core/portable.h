@@ -344,6 +344,24 @@ typedef int crew_room;
 #define CREW_PUT(name, at, value) ((void)0)
 #define CREW_WAIT() ((void)0)
 #endif
+/* FOR_EACH_CREWS: blocks that one thread of a CPU sums side by side, each in its own order: ABREAST from b on. */
+#if defined(__OPENCL_VERSION__) || defined(BRC_TARGET)
+#define ABREAST 1
+#define FOR_EACH_CREWS FOR_EACH_CREW
+#else
+#define ABREAST 8
+#define FOR_EACH_CREWS(b, n)                                                                                           \
+    BRC_FOR_EACH(brc_turn, 0, ((n)-brc_first_item + ABREAST - 1) / ABREAST)                                            \
+    for (int b = brc_first_item + brc_turn * ABREAST, brc_once = 1; brc_once; brc_once = 0)
+/* sum + a b, rounded as the compiler does for one block: once where it contracts (host/device/CMakeLists.txt). */
+#if !defined(__FMA__)
+#define STATE_ADD_PRODUCT(sum, a, b) ((sum) + (a) * (b))
+#elif BRC_PRECISION == 2
+#define STATE_ADD_PRODUCT(sum, a, b) __builtin_fmaf(a, b, sum)
+#else
+#define STATE_ADD_PRODUCT(sum, a, b) __builtin_fma(a, b, sum)
+#endif
+#endif
 #define CREW_AT(row, column, n) ((row) * ((n) | 1) + (column)) /* odd: rows lie in different banks */
 #define CREW_SHARE(n) (((n) + CREW - 1) / CREW)
 #define CREW_COLUMN(i) ((i)*CREW + CREW_PLACE)
@@ -353,38 +371,6 @@ typedef int crew_room;
 #define CREW_END(begin, end)                                                                                           \
     ((begin) + (CREW_PLACE + 1) * (SCAN_BLOCK / CREW) < (end) ? (begin) + (CREW_PLACE + 1) * (SCAN_BLOCK / CREW)       \
                                                               : (end))
-/* The sum of x over those of a crew before this one, or with `all` over the whole crew. */
-LAW int crew_sum(crew_room room, int x, int all)
-{
-#if CREW > 1
-    int sum = 0;
-    room[CREW_PLACE] = x;
-    CREW_WAIT();
-    for (int t = 0; t < (all ? CREW : CREW_PLACE); ++t) sum += room[t];
-    CREW_WAIT();
-    return sum;
-#else
-    (void)room;
-    return all ? x : 0;
-#endif
-}
-#define CREW_ALL(room, x) crew_sum(room, x, 1)
-#define CREW_BEFORE(room, x) crew_sum(room, x, 0)
-/* How many of those before this one, or with `all` of the whole crew, have x too. */
-LAW int crew_alike(crew_room room, int x, int all)
-{
-#if CREW > 1
-    int alike = 0;
-    room[CREW_PLACE] = x;
-    CREW_WAIT();
-    for (int t = 0; t < (all ? CREW : CREW_PLACE); ++t) alike += room[t] == x;
-    CREW_WAIT();
-    return alike;
-#else
-    (void)room, (void)x;
-    return all;
-#endif
-}
 
 /* Numbers of rows of three, one after the other: work-items of a group that lie side by side do numbers that do, which
  * a GPU reads and writes at once. */
@@ -417,6 +403,13 @@ LAW int crew_alike(crew_room room, int x, int all)
 #define LOADS_TOGETHER(n) _Pragma(BRC_TEXT(unroll n))
 #else
 #define LOADS_TOGETHER(n)
+#endif
+
+/* In front of a loop of n turns that is to be written out, so that small arrays stay in registers. */
+#if defined(__OPENCL_VERSION__) || defined(__clang__)
+#define WRITTEN_OUT(n) _Pragma("unroll")
+#else
+#define WRITTEN_OUT(n) BRC_PRAGMA(GCC unroll n)
 #endif
 
 /* LANE_MAKE(type, F) = (F(0), F(1), ... F(W-1)); LANE_ITEM(x, l) = component l, l a hex digit written out. */

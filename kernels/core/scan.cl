@@ -1,6 +1,39 @@
 /* Running sums and a stable sort of integers, in fixed blocks of 1024 in order, so that neither device nor threads
  * change a bit. */
 
+/* The sum of x over those of a crew before this one, or with `all` over the whole crew. */
+LAW int crew_sum(crew_room room, int x, int all)
+{
+#if CREW > 1
+    int sum = 0;
+    room[CREW_PLACE] = x;
+    CREW_WAIT();
+    for (int t = 0; t < (all ? CREW : CREW_PLACE); ++t) sum += room[t];
+    CREW_WAIT();
+    return sum;
+#else
+    (void)room;
+    return all ? x : 0;
+#endif
+}
+#define CREW_ALL(room, x) crew_sum(room, x, 1)
+#define CREW_BEFORE(room, x) crew_sum(room, x, 0)
+/* How many of those before this one, or with `all` of the whole crew, have x too. */
+LAW int crew_alike(crew_room room, int x, int all)
+{
+#if CREW > 1
+    int alike = 0;
+    room[CREW_PLACE] = x;
+    CREW_WAIT();
+    for (int t = 0; t < (all ? CREW : CREW_PLACE); ++t) alike += room[t] == x;
+    CREW_WAIT();
+    return alike;
+#else
+    (void)room, (void)x;
+    return all;
+#endif
+}
+
 #define SORT_BINS 256
 
 /* sum[b] = sum of x over block b. */

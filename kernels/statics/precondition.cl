@@ -25,11 +25,14 @@ KERNEL void block6_precondition(int n_rows, OWN(state) block, OWN(state) force, 
             r[c + 3] = torque[(brc_size)e * 3 + c];
         }
         for (int a = 0; a < 6; ++a) z[a] = 0;
-        for (int a = 0, at = 0; a < 6; ++a)
-            for (int b = a; b < 6; ++b, ++at) {
-                z[a] += p[at] * r[b];
-                if (b > a) z[b] += p[at] * r[a];
-            }
+        WRITTEN_OUT(6)
+        for (int a = 0; a < 6; ++a) WRITTEN_OUT(6)
+        for (int b = 0; b < 6; ++b) {
+            if (b < a) continue;
+            const state entry = p[a * (11 - a) / 2 + b];
+            z[a] += entry * r[b];
+            if (b > a) z[b] += entry * r[a];
+        }
         for (int c = 0; c < 3; ++c) {
             move[(brc_size)e * 3 + c] = z[c];
             turn[(brc_size)e * 3 + c] = z[c + 3];

@@ -162,10 +162,10 @@ static void visit(pass *p, int64_t s, int64_t *own_bin, candidate *nearest)
             const int64_t row = (i * list->dims[1] + j) * list->dims[2];
             for (int64_t t = list->start[row + low[2]]; t < list->start[row + high[2] + 1]; ++t) {
                 const double *y = list->x[t];
-                if (y[3] > x[3] || (y[3] == x[3] && list->id[t] >= id)) continue;
                 const double r[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]}, sum = x[3] + y[3], most = p->reach * sum;
                 const double square = r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-                if (square > most * most * (1.0 + ROUNDING)) continue;
+                if (square > most * most * (1.0 + ROUNDING)) continue; /* nearly all: no other test before it */
+                if (y[3] > x[3] || (y[3] == x[3] && list->id[t] >= id)) continue;
                 const double ratio = sqrt(square) / sum;
                 if (ratio <= p->reach) take_pair(p, s, ratio, id, list->id[t], own_bin, nearest, &placed);
             }

@@ -44,6 +44,11 @@ BRC_FIELD_TABLE(brc_state_fields, "state", BRC_LIFE_RUN, NULL, rows);
 brc_status brc_simulation_fields_create(brc_simulation *s)
 {
     BRC_TRY(brc_fields_create(s->device, &brc_state_fields, &s->wants, s->core));
+    return brc_simulation_set_upright(s);
+}
+
+brc_status brc_simulation_set_upright(brc_simulation *s)
+{
     if (!s->model->turns) return BRC_OK;
     BRC_LOCAL(s->context, 4 * (int64_t)s->layout->n_rows, double, upright, "orientations");
     for (int64_t r = 0; r < s->layout->n_rows; ++r)

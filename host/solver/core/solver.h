@@ -143,6 +143,7 @@ brc_status brc_core_passes_make(brc_simulation *s);
 /* ---- simulation_fields.c: state and work arrays ---- */
 extern const brc_field_table brc_state_fields;
 brc_status brc_simulation_fields_create(brc_simulation *s);
+brc_status brc_simulation_set_upright(brc_simulation *s); /* orientations as they are at first, of models that turn */
 void brc_simulation_fields_free(brc_simulation *s);
 
 /* ---- geometry.c ---- */

@@ -107,7 +107,7 @@ static brc_status find_walls(brc_context *context, const brc_domain *d, int32_t 
 }
 
 /* What the displacements and the force say. */
-static void evaluate(const brc_domain *d, int32_t set[3][2], int axis, const double *displacement, double force,
+static void evaluate(const brc_domain *d, const int32_t set[3][2], int axis, const double *displacement, double force,
                      brc_beam_answer *out)
 {
     double diameter = 0, edge[3], strain[3];
@@ -134,10 +134,75 @@ static brc_preconditioner_kind preconditioner_of(const brc_domain *domain, doubl
     return iterations < 350 ? BRC_PRECONDITIONER_PARTS : BRC_PRECONDITIONER_AUTO;
 }
 
+/* The scene of a pull, and its simulation, which points into it. */
+typedef struct brc_beam_test {
+    brc_material material;
+    brc_body body;
+    brc_load loads[2];
+    brc_stage stage;
+    brc_scene scene;
+    int32_t set[3][2]; /* of the walls */
+    brc_simulation *simulation;
+} brc_beam_test;
+
+static void free_test(brc_beam_test **test)
+{
+    if (!*test) return;
+    brc_simulation_free(&(*test)->simulation);
+    brc_memory_free(*test);
+    *test = NULL;
+}
+
+static brc_status make_test(brc_context *context, brc_device *device, const brc_domain *domain,
+                            const brc_beam_pull *pull, brc_beam_test **out)
+{
+    const double strain = 1e-6; /* the operator is linear: any strain gives the same ratios */
+    const int axis = pull->axis;
+    BRC_ENDS_WITH(free_test) brc_beam_test *t = NULL;
+    BRC_TRY(BRC_ALLOCATE(context, &t, 1, "elastic sample test"));
+    BRC_TRY(find_walls(context, domain, t->set));
+    t->material = (brc_material){.name = "unit",
+                                 .young = 1,
+                                 .poisson = 0.2,
+                                 .density = 1,
+                                 .beam_radius = pull->radius,
+                                 .beam_young = pull->beam_young > 0 ? pull->beam_young : 1};
+    t->body = (brc_body){.name = "sample"};
+    for (int side = 0; side < 2; ++side) {
+        t->loads[side] = (brc_load){.kind = BRC_LOAD_ELEMENT_DISPLACEMENT};
+        snprintf(t->loads[side].set, sizeof t->loads[side].set, "%s", walls[axis][side]);
+        t->loads[side].component[axis] = true;
+        t->loads[side].value[axis] = (side ? 0.5 : -0.5) * strain * (domain->bounds[1][axis] - domain->bounds[0][axis]);
+    }
+    t->stage = (brc_stage){.name = "pull",
+                           .solver = BRC_SOLVER_STATIC,
+                           .n_loads = 2,
+                           .loads = t->loads,
+                           .tolerance = pull->tolerance > 0 ? pull->tolerance : 1e-5,
+                           .increments = 1};
+    t->stage.preconditioner = preconditioner_of(domain, t->stage.tolerance);
+    t->scene =
+        (brc_scene){.version = 1,
+                    .folder = ".",
+                    .n_materials = 1,
+                    .materials = &t->material,
+                    .model = {.kind = brc_model_of_beams(), .beam_poisson = pull->beam_poisson, .keep_isolated = true},
+                    .n_bodies = 1,
+                    .bodies = &t->body,
+                    .n_stages = 1,
+                    .stages = &t->stage,
+                    .output = {.n_frames = -1}};
+    BRC_TRY(brc_simulation_create(context, &t->scene, domain, device, &t->simulation));
+    *out = t;
+    t = NULL;
+    return BRC_OK;
+}
+
 void brc_beam_states_free(brc_beam_states *states)
 {
     for (int32_t k = 0; k < states->n; ++k)
         brc_memory_free(states->state[k]);
+    free_test(&states->test);
     *states = (brc_beam_states){0};
 }
 
@@ -155,63 +220,35 @@ static brc_status keep_state(brc_context *context, brc_simulation *simulation, b
 brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const brc_domain *domain,
                                 const brc_beam_pull *pull, brc_beam_answer *out)
 {
-    const double start = brc_clock_s(), strain = 1e-6; /* the operator is linear: any strain gives the same ratios */
-    const int axis = pull->axis;
-    int32_t set[3][2];
+    const double start = brc_clock_s();
     double reaction[3];
-    BRC_ENDS_WITH(brc_simulation_free) brc_simulation *simulation = NULL;
+    BRC_ENDS_WITH(brc_beam_states_free) brc_beam_states own = {0};
+    brc_beam_states *states = pull->states ? pull->states : &own;
     memset(out, 0, sizeof *out);
     if (domain->element_kind != BRC_ELEMENT_SPHERE)
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "elastic sample test: the sample is made of cells; expected spheres joined by beams");
-    BRC_TRY(find_walls(context, domain, set));
-    brc_material material = {.name = "unit",
-                             .young = 1,
-                             .poisson = 0.2,
-                             .density = 1,
-                             .beam_radius = pull->radius,
-                             .beam_young = pull->beam_young > 0 ? pull->beam_young : 1};
-    brc_body body = {.name = "sample"};
-    brc_load loads[2] = {{.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}, {.kind = BRC_LOAD_ELEMENT_DISPLACEMENT}};
-    for (int side = 0; side < 2; ++side) {
-        snprintf(loads[side].set, sizeof loads[side].set, "%s", walls[axis][side]);
-        loads[side].component[axis] = true;
-        loads[side].value[axis] = (side ? 0.5 : -0.5) * strain * (domain->bounds[1][axis] - domain->bounds[0][axis]);
-    }
-    brc_stage stage = {.name = "pull",
-                       .solver = BRC_SOLVER_STATIC,
-                       .n_loads = 2,
-                       .loads = loads,
-                       .tolerance = pull->tolerance > 0 ? pull->tolerance : 1e-5,
-                       .increments = 1};
-    stage.preconditioner = preconditioner_of(domain, stage.tolerance);
-    brc_scene scene = {
-        .version = 1,
-        .folder = ".",
-        .n_materials = 1,
-        .materials = &material,
-        .model = {.kind = brc_model_of_beams(), .beam_poisson = pull->beam_poisson, .keep_isolated = true},
-        .n_bodies = 1,
-        .bodies = &body,
-        .n_stages = 1,
-        .stages = &stage,
-        .output = {.n_frames = -1}};
     BRC_LOCAL(context, 3 * domain->n_elements, double, displacement, "displacements");
-    BRC_TRY(brc_simulation_create(context, &scene, domain, device, &simulation));
-    if (pull->states)
-        brc_simulation_know_states(simulation, pull->states->n, (const double *const *)pull->states->state);
-    BRC_TRY(brc_simulation_run(simulation));
-    BRC_TRY(brc_simulation_displacement(simulation, displacement));
-    BRC_TRY(brc_simulation_reaction(simulation, set[axis][1], reaction));
-    evaluate(domain, set, axis, displacement, reaction[axis] / material.beam_young, out);
+    if (!states->test) {
+        BRC_TRY(make_test(context, device, domain, pull, &states->test));
+    } else {
+        states->test->material.beam_radius = pull->radius;
+        BRC_TRY(brc_simulation_renew(states->test->simulation));
+    }
+    const brc_beam_test *t = states->test;
+    brc_simulation_know_states(t->simulation, states->n, (const double *const *)states->state);
+    BRC_TRY(brc_simulation_run(t->simulation));
+    BRC_TRY(brc_simulation_displacement(t->simulation, displacement));
+    BRC_TRY(brc_simulation_reaction(t->simulation, t->set[pull->axis][1], reaction));
+    evaluate(domain, t->set, pull->axis, displacement, reaction[pull->axis] / t->material.beam_young, out);
     brc_beam_body bonds;
     BRC_TRY(brc_beam_body_of(context, domain, -1, &bonds));
     out->inner = bonds.inner;
     out->n_bonds = domain->n_bonds;
     for (int64_t e = 0; e < domain->n_elements; ++e)
         out->n_loose += domain->row_start[e + 1] == domain->row_start[e];
-    out->iterations = brc_simulation_static_report(simulation).iterations;
-    if (pull->states) BRC_TRY(keep_state(context, simulation, pull->states));
+    out->iterations = brc_simulation_static_report(t->simulation).iterations;
+    if (pull->states) BRC_TRY(keep_state(context, t->simulation, states));
     out->seconds = brc_clock_s() - start;
     return BRC_OK;
 }

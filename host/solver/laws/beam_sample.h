@@ -19,11 +19,13 @@ void brc_beam_sample_free(brc_beam_sample **sample);
 brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sample, double coordination, bool balanced,
                                 int n_threads, brc_domain **out);
 
-/* States of earlier pulls of one domain along one axis, with the same E_m. Zeroed: none yet. */
+/* What pulls of one domain along one axis with the same E_m leave for the next: their states, and the simulation, which
+ * borrows context, device and domain. Zeroed: none yet. */
 enum { BRC_BEAM_STATES = 5 };
 typedef struct brc_beam_states {
     int32_t n;
     double *state[BRC_BEAM_STATES]; /* [n] owned; the last comes first */
+    struct brc_beam_test *test;     /* owned */
 } brc_beam_states;
 void brc_beam_states_free(brc_beam_states *states);
 
@@ -35,7 +37,7 @@ typedef struct brc_beam_pull {
     double tolerance;    /* residual over load; 0: 1e-5, which moves E by up to 3e-5 and nu by 1e-5 of themselves
                             (docs/notebook/beams-calibration.md) */
     brc_beam_states *states; /* the solve begins from what mixes them best, and its own state is kept with the last of
-                                them; NULL: from no load */
+                                them; NULL: from no load, and nothing is kept */
 } brc_beam_pull;
 
 typedef struct brc_beam_answer {

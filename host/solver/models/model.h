@@ -139,6 +139,8 @@ typedef struct brc_bond_model {
     brc_status (*create)(struct brc_simulation *s);
     void (*free)(struct brc_simulation *s);
     brc_status (*upload)(struct brc_simulation *s);
+    /* What it made of the scene's materials, anew (brc_simulation_renew); NULL: it cannot. */
+    brc_status (*renew)(struct brc_simulation *s);
     /* The passes of the law, in the scopes of the run and of an evaluation; and of loads on faces (NULL: it has no
      * faces). */
     brc_status (*make_passes)(struct brc_simulation *s, const struct brc_scope *run, const struct brc_scope *request);

@@ -223,6 +223,19 @@ brc_status brc_stage_start(brc_simulation *s)
     return BRC_OK;
 }
 
+brc_status brc_simulation_renew(brc_simulation *s)
+{
+    if (!s->model->renew || s->scene->has_fracture || s->scene->has_contact)
+        return BRC_FAIL(s->context, BRC_INTERNAL, "a simulation that cannot be renewed");
+    BRC_TRY(leave_stage(s));
+    s->run->stage = -1;
+    BRC_TRY(s->model->renew(s));
+    BRC_TRY(brc_buffer_fill_zero(brc_displacement_of(s)));
+    BRC_TRY(brc_buffer_fill_zero(brc_velocity_of(s)));
+    if (brc_spin_of(s)) BRC_TRY(brc_buffer_fill_zero(brc_spin_of(s)));
+    return brc_simulation_set_upright(s);
+}
+
 brc_status brc_simulation_begin_stage(brc_simulation *s, int32_t stage)
 {
     BRC_TRY(brc_stage_enter(s, stage));

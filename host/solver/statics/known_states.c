@@ -21,7 +21,11 @@ static brc_status write(brc_simulation *s, const double *from, brc_unknowns to)
 static double dot(int64_t n, const double *a, const double *b)
 {
     double sum[8] = {0};
-    for (int64_t i = 0; i < n; ++i)
+    int64_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int l = 0; l < 8; ++l)
+            sum[l] += a[i + l] * b[i + l];
+    for (; i < n; ++i)
         sum[i % 8] += a[i] * b[i];
     return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }

@@ -55,7 +55,10 @@ typedef struct plan {
     double (*centre)[3]; /* [n] */
     uint8_t *free_bits;  /* [n_elements] */
     uint8_t *whole;      /* [n_half_edges] 0: broken; NULL: none is */
-    double *matrix;      /* [6 n][6 n] above the diagonal */
+    int32_t *joint_of;   /* [n][n] of two parts, the first the lower: from 1 on; 0: no bond joins them */
+    struct joint *joint; /* [n_joints] */
+    int32_t n_joints;
+    double *matrix; /* [6 n][6 n] above the diagonal */
 } plan;
 
 static void free_plan(plan *p)
@@ -65,6 +68,8 @@ static void free_plan(plan *p)
     brc_memory_free(p->centre);
     brc_memory_free(p->free_bits);
     brc_memory_free(p->whole);
+    brc_memory_free(p->joint_of);
+    brc_memory_free(p->joint);
     brc_memory_free(p->matrix);
 }
 
@@ -182,27 +187,126 @@ static void add_bond(plan *p, int64_t e, int64_t other, bond *b)
         }
 }
 
+/* What all bonds between two parts that move as wholes resist: d.A d/2 + d.B w + w.C w/2 of how far the second moves,
+ * at the first one's centre, and turns against the first. */
+typedef struct joint {
+    int32_t part[2];
+    double a[3][3], b[3][3], c[3][3];
+} joint;
+
+/* out = m [r]x, where [r]x w = r x w. */
+static void times_cross(const double m[3][3], const double r[3], double out[3][3])
+{
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 3; ++c)
+            out[i][c] = m[i][(c + 1) % 3] * r[(c + 2) % 3] - m[i][(c + 2) % 3] * r[(c + 1) % 3];
+}
+
+/* A bond acts at its middle, r from the centre: there d - [r]x w. */
+static void add_to_joint(joint *j, const bond *b, const double r[3])
+{
+    const double *k = b->stiffness;
+    double moved[3][3], turned[3][3], half[3][3], whole[3][3];
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q) {
+            const double nn = b->n[p] * b->n[q], rest = (p == q) - nn;
+            moved[p][q] = k[0] * nn + k[1] * rest;
+            turned[p][q] = k[3] * nn + k[2] * rest;
+        }
+    times_cross(moved, r, half);
+    double across[3][3];
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q)
+            across[p][q] = half[q][p];
+    times_cross(across, r, whole);
+    for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q) {
+            j->a[p][q] += moved[p][q];
+            j->b[p][q] -= half[p][q];
+            j->c[p][q] += turned[p][q] + whole[p][q];
+        }
+}
+
+/* Onto the matrix: the first part's motion is (-1, 0; 0, -1) of its own, the second's (1, -[r]x; 0, 1), r from its
+ * centre to the first one's. */
+static void add_joint(plan *p, const joint *j)
+{
+    const int32_t n = 6 * p->n;
+    double k[6][6], way[2][6][6] = {0};
+    for (int c = 0; c < 3; ++c) {
+        const int next = (c + 1) % 3, last = (c + 2) % 3;
+        const double r = p->centre[j->part[0]][c] - p->centre[j->part[1]][c];
+        way[0][c][c] = way[0][c + 3][c + 3] = -1;
+        way[1][c][c] = way[1][c + 3][c + 3] = 1;
+        way[1][next][3 + last] += r; /* -(r x w) */
+        way[1][last][3 + next] -= r;
+    }
+    for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+            k[a][b] = j->a[a][b];
+            k[a][b + 3] = k[b + 3][a] = j->b[a][b];
+            k[a + 3][b + 3] = j->c[a][b];
+        }
+    for (int first = 0; first < 2; ++first)
+        for (int second = first; second < 2; ++second)
+            for (int a = 0; a < 6; ++a)
+                for (int b = first == second ? a : 0; b < 6; ++b) {
+                    double sum = 0;
+                    for (int i = 0; i < 6; ++i)
+                        for (int c = 0; c < 6; ++c)
+                            sum += way[first][i][a] * k[i][c] * way[second][c][b];
+                    p->matrix[(int64_t)(6 * j->part[first] + a) * n + 6 * j->part[second] + b] += sum;
+                }
+}
+
+static brc_status joint_between(plan *p, int32_t first, int32_t second, joint **out)
+{
+    int32_t *number = p->joint_of + (int64_t)first * p->n + second;
+    if (*number == 0) {
+        BRC_TRY(brc_memory_resize(p->s->context, (void **)&p->joint, p->n_joints + 1, sizeof *p->joint, WORDS));
+        p->joint[p->n_joints] = (joint){.part = {first, second}};
+        *number = ++p->n_joints;
+    }
+    *out = p->joint + *number - 1;
+    return BRC_OK;
+}
+
 /* P^T K P. */
 static brc_status add_bonds(plan *p)
 {
     const brc_domain *d = p->s->domain;
     BRC_TRY(BRC_ALLOCATE(p->s->context, &p->matrix, 36 * (int64_t)p->n * p->n, WORDS));
+    BRC_TRY(BRC_ALLOCATE(p->s->context, &p->joint_of, (int64_t)p->n * p->n, WORDS));
     for (int64_t i = 0; i < d->n_bonds; ++i) {
-        const int64_t h = d->bond_half_edge[i], e = d->neighbour[d->twin[h]], other = d->neighbour[h];
-        const bool rigid = p->part[e] == p->part[other] && p->free_bits[e] == 63 && p->free_bits[other] == 63;
-        double square = 0;
+        const int64_t h = d->bond_half_edge[i];
+        int64_t e = d->neighbour[d->twin[h]], other = d->neighbour[h];
+        const bool free = p->free_bits[e] == 63 && p->free_bits[other] == 63;
+        double square = 0, middle[3];
         bond b;
-        if (rigid || (p->whole && !p->whole[h])) continue;
+        if ((free && p->part[e] == p->part[other]) || (p->whole && !p->whole[h])) continue;
+        if (p->part[e] > p->part[other]) {
+            const int64_t swapped = e;
+            e = other, other = swapped;
+        }
         for (int c = 0; c < 3; ++c) {
             b.n[c] = d->position[3 * other + c] - d->position[3 * e + c];
             square += b.n[c] * b.n[c];
+            middle[c] = d->position[3 * e + c] + b.n[c] / 2 - p->centre[p->part[e]][c];
         }
         b.length = sqrt(square);
         for (int c = 0; c < 3; ++c)
             b.n[c] /= b.length;
         p->s->model->statics->bond(p->s, e, other, b.length, square, b.stiffness);
-        add_bond(p, e, other, &b);
+        if (free) {
+            joint *j;
+            BRC_TRY(joint_between(p, p->part[e], p->part[other], &j));
+            add_to_joint(j, &b, middle);
+        } else {
+            add_bond(p, e, other, &b);
+        }
     }
+    for (int32_t i = 0; i < p->n_joints; ++i)
+        add_joint(p, &p->joint[i]);
     return BRC_OK;
 }
 

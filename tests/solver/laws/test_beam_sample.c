@@ -212,6 +212,35 @@ static void pulls_begin_from_those_before(void **state)
     close_bench(&b);
 }
 
+/* A simulation with other beams goes on from where a new one would begin: the same bits. */
+static void a_renewed_simulation_is_as_good_as_new(void **state)
+{
+    (void)state;
+    bench b;
+    open_bench(&b, 1);
+    pack(&b, 800, 8);
+    brc_beam_states states = {0}, apart = {0};
+    brc_beam_answer renewed, anew;
+    brc_beam_pull pull = {.axis = 2, .radius = 0.3, .beam_poisson = 0.3, .states = &states};
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &pull, &renewed));
+    const int64_t n = 6 * b.domain->n_elements;
+    done(&b, BRC_ALLOCATE(b.context, &apart.state[0], n, "state"));
+    memcpy(apart.state[0], states.state[0], (size_t)n * sizeof(double));
+    apart.n = 1;
+    pull.radius = 0.7;
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &pull, &renewed));
+    pull.states = &apart;
+    done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &pull, &anew));
+    assert_true(renewed.iterations > 0);
+    assert_int_equal(renewed.iterations, anew.iterations);
+    assert_memory_equal(&renewed.young, &anew.young, sizeof(double));
+    assert_memory_equal(renewed.lateral, anew.lateral, sizeof anew.lateral);
+    assert_memory_equal(states.state[0], apart.state[0], (size_t)n * sizeof(double));
+    brc_beam_states_free(&states);
+    brc_beam_states_free(&apart);
+    close_bench(&b);
+}
+
 static void a_sample_without_walls_is_refused_with_the_wall_by_name(void **state)
 {
     (void)state;
@@ -287,6 +316,7 @@ int main(void)
         cmocka_unit_test(the_default_tolerance_is_as_good_as_its_header_says),
         cmocka_unit_test(nu_falls_and_e_grows_with_the_radius),
         cmocka_unit_test(pulls_begin_from_those_before),
+        cmocka_unit_test(a_renewed_simulation_is_as_good_as_new),
         cmocka_unit_test(a_sample_without_walls_is_refused_with_the_wall_by_name),
         cmocka_unit_test(a_sample_of_another_fill_is_refused),
         cmocka_unit_test(balanced_bonds_make_the_axes_more_alike),

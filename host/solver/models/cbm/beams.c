@@ -135,11 +135,13 @@ brc_status brc_beams_upload(brc_simulation *s)
  * translation ka n n^T + (6 A / l^2)(1 - n n^T), rotation 2 A (1 - n n^T) + kt n n^T, coupling (3 A / l) [n]x. */
 static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
 {
+    static const int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
     const brc_domain *d = s->domain;
-    memset(k, 0, 36 * sizeof(double));
+    const brc_beam *own = brc_beam_of_element(s, e), *before = NULL;
+    double moved[6] = {0}, turned[6] = {0}, coupled[3] = {0}, axial = 0, bend = 0, twist = 0;
     for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
         const int64_t j = d->neighbour[h];
-        const brc_beam *own = brc_beam_of_element(s, e), *other = brc_beam_of_element(s, j);
+        const brc_beam *other = brc_beam_of_element(s, j);
         double n[3], square = 0;
         for (int c = 0; c < 3; ++c) {
             n[c] = d->position[3 * j + c] - d->position[3 * e + c];
@@ -148,23 +150,31 @@ static void diagonal_block(const brc_simulation *s, int64_t e, double k[6][6])
         const double length = sqrt(square);
         for (int c = 0; c < 3; ++c)
             n[c] /= length;
-        const double ka = brc_in_series(own->axial, other->axial) / length,
-                     a = brc_in_series(own->bend, other->bend) / length;
-        const double kt = brc_in_series(own->twist, other->twist) / length, across = 6 * a / square,
-                     couple = 3 * a / length;
-        for (int p = 0; p < 3; ++p) {
-            for (int q = 0; q < 3; ++q) {
-                const double nn = n[p] * n[q], rest = (p == q) - nn;
-                k[p][q] += ka * nn + across * rest;
-                k[p + 3][q + 3] += 2 * a * rest + kt * nn;
-            }
-            /* energy of (u, theta): the end leans by -u/l across; couples u_p with theta_q through n x */
-            const int q = (p + 1) % 3, r = (p + 2) % 3;
-            k[p][q + 3] += couple * n[r];
-            k[p][r + 3] -= couple * n[q];
-            k[q + 3][p] += couple * n[r];
-            k[r + 3][p] -= couple * n[q];
+        if (other != before) {
+            axial = brc_in_series(own->axial, other->axial);
+            bend = brc_in_series(own->bend, other->bend);
+            twist = brc_in_series(own->twist, other->twist);
+            before = other;
         }
+        const double ka = axial / length, a = bend / length, kt = twist / length;
+        const double across = 6 * a / square, couple = 3 * a / length;
+        for (int c = 0; c < 6; ++c) {
+            const double nn = n[row[c]] * n[column[c]], rest = (c < 3) - nn;
+            moved[c] += ka * nn + across * rest;
+            turned[c] += 2 * a * rest + kt * nn;
+        }
+        for (int c = 0; c < 3; ++c)
+            coupled[c] += couple * n[c];
+    }
+    memset(k, 0, 36 * sizeof(double));
+    for (int c = 0; c < 6; ++c) {
+        k[row[c]][column[c]] = k[column[c]][row[c]] = moved[c];
+        k[row[c] + 3][column[c] + 3] = k[column[c] + 3][row[c] + 3] = turned[c];
+    }
+    for (int p = 0; p < 3; ++p) { /* energy of (u, theta): the end leans by -u/l across */
+        const int q = (p + 1) % 3, r = (p + 2) % 3;
+        k[p][q + 3] = k[q + 3][p] = coupled[r];
+        k[p][r + 3] = k[r + 3][p] = -coupled[q];
     }
 }
 

@@ -26,6 +26,7 @@ static inline brc_cbm_own *brc_cbm_own_of(const brc_simulation *s)
 /* ---- passes.c ---- */
 brc_status brc_cbm_create(brc_simulation *s);
 void brc_cbm_free(brc_simulation *s);
+brc_status brc_cbm_renew(brc_simulation *s);
 brc_status brc_cbm_make_passes(brc_simulation *s, const brc_scope *run, const brc_scope *request);
 
 /* ---- force.c ---- */

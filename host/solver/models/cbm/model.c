@@ -46,6 +46,7 @@ const brc_bond_model brc_cbm = {
     .create = brc_cbm_create,
     .free = brc_cbm_free,
     .upload = brc_cbm_upload,
+    .renew = brc_cbm_renew,
     .create_fracture = brc_cbm_create_fracture,
     .break_bonds = brc_cbm_break_bonds,
     .cohesion = &brc_cbm_cohesion,
