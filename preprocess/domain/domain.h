@@ -31,7 +31,7 @@ typedef struct brc_quality {
     double tiny_face_threshold;     /* [-] of the mean face area */
     double tiny_face_area_fraction; /* [-] dropped area over total face area */
     double volume_shape;            /* exact volume of the shape asked for [m^3] */
-    double volume_cells;            /* sum of element volumes [m^3] */
+    double volume_cells;            /* sum of the elements' own volumes [m^3] */
     double volume_error;            /* cells: volume_cells / volume_shape - 1 [-]; spheres: 0 */
     double smallest_distance;       /* shortest branch [m] */
     double mean_spacing;  /* cells: (volume_cells / n_elements)^(1/3), spheres: (volume_shape / n_elements)^(1/3) [m] */
@@ -64,10 +64,12 @@ typedef struct brc_domain {
 
     /* elements */
     double *position; /* [n_elements][3] seed X [m] */
-    double *volume;   /* [n_elements] [m^3] */
+    double *volume;   /* [n_elements] [m^3] of the body that an element stands for: a cell's own; a sphere's own over the
+                         body's volume fraction, so that the body weighs what its material does (NAH19 eq. 15, 16) */
     double *centroid; /* [n_elements][3] centre of mass of the cell [m] */
     double
-        *inertia; /* [n_elements][6] xx yy zz yz xz xy of the inertia tensor about the centroid at unit density [m^5] */
+        *inertia; /* [n_elements][6] xx yy zz yz xz xy of the inertia tensor about the centroid at unit density [m^5];
+                     of a sphere 2/5 volume radius^2 */
     int32_t *region; /* [n_elements] index of the material region (0: the body's own material) */
     int32_t *body;   /* [n_elements] index of the body */
     int32_t *grain;  /* [n_elements] index of the grain, numbered through all bodies; NULL: no grains */
@@ -126,6 +128,15 @@ brc_status brc_domain_each_block(brc_domain *domain, bool down, brc_domain_visit
 brc_status brc_domain_take_pages(brc_context *context, brc_domain *domain);
 /* Append a copy of the name to the walls; wall_name has room for it. BRC_NO_MEMORY. */
 brc_status brc_domain_add_wall(brc_context *context, brc_domain *domain, const char *name);
+static inline double brc_sphere_volume(double radius)
+{
+    return 4.1887902047863910 * radius * radius * radius;
+}
+/* The volume that element e fills itself [m^3]: a sphere less than it stands for. */
+static inline double brc_domain_own_volume(const brc_domain *domain, int64_t e)
+{
+    return domain->radius ? brc_sphere_volume(domain->radius[e]) : domain->volume[e];
+}
 /* The shared faces of element e are here. */
 static inline bool brc_domain_has(const brc_domain *domain, int64_t e)
 {

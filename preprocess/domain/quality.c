@@ -61,7 +61,7 @@ typedef float (*value_of)(const brc_domain *domain, int64_t k);
 
 static float volume_value(const brc_domain *domain, int64_t e)
 {
-    return (float)domain->volume[e];
+    return (float)brc_domain_own_volume(domain, e);
 }
 
 static float faces_value(const brc_domain *domain, int64_t e)
@@ -163,8 +163,8 @@ static double sum_volumes(const brc_domain *domain)
 {
     double volume = 0.0, lost = 0.0;
     for (int64_t e = 0; e < domain->n_elements; ++e) {
-        const double sum = volume + domain->volume[e];
-        lost += volume >= domain->volume[e] ? (volume - sum) + domain->volume[e] : (domain->volume[e] - sum) + volume;
+        const double own = brc_domain_own_volume(domain, e), sum = volume + own;
+        lost += volume >= own ? (volume - sum) + own : (own - sum) + volume;
         volume = sum;
     }
     return volume + lost;

@@ -106,7 +106,7 @@ static brc_status make_spheres(brc_context *context, const double *position, con
 #pragma omp parallel for schedule(static) num_threads(n_threads)
     for (int64_t e = 0; e < n; ++e) {
         const double r = radius[e];
-        d->volume[e] = 4.1887902047863910 * r * r * r;
+        d->volume[e] = brc_sphere_volume(r);
         for (int k = 0; k < 3; ++k)
             d->inertia[6 * e + k] = 0.4 * d->volume[e] * r * r;
     }
@@ -159,6 +159,16 @@ static brc_status bond(brc_context *context, double *position, double *radius, i
 cleanup:
     brc_memory_free(pair);
     return status;
+}
+
+void brc_beams_fill(brc_domain *d, double volume_fraction)
+{
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const double own = brc_sphere_volume(d->radius[e]);
+        d->volume[e] = own / volume_fraction;
+        for (int k = 0; k < 3; ++k)
+            d->inertia[6 * e + k] = 0.4 * d->volume[e] * d->radius[e] * d->radius[e];
+    }
 }
 
 brc_status brc_beams_bond(brc_context *context, double *position, double *radius, int64_t n, double coordination,

@@ -46,11 +46,8 @@ static brc_status prepare(wave *w, brc_simulation *simulation)
     const int along = scene->sensors[w->end].component;
     const double shear = m->young / (2 * (1 + m->poisson));
     const double modulus = along == 0 ? 2 * shear * (1 - m->poisson) / (1 - 2 * m->poisson) : shear;
-    const brc_domain *d = brc_simulation_domain(simulation);
-    const double density =
-        m->density * (d->radius ? d->quality.volume_fraction : 1); /* packed spheres weigh what their own volumes do */
     w->amplitude = w->load->value[along];
-    w->travel = scene->bodies[0].shape.size[0] / sqrt(modulus / density);
+    w->travel = scene->bodies[0].shape.size[0] / sqrt(modulus / m->density);
     return brc_watched_open(w->context, &w->watched, simulation);
 }
 

@@ -59,6 +59,7 @@ brc_status brc_beam_sample_bond(brc_context *context, const brc_beam_sample *sam
     BRC_TRY(BRC_ALLOCATE(context, &domain->body, n, "bodies"));
     domain->quality.coordination_mean = 2.0 * (double)domain->n_bonds / (double)n;
     domain->quality.volume_fraction = sample->packing.volume_fraction;
+    brc_beams_fill(domain, sample->packing.volume_fraction);
     *out = domain;
     domain = NULL;
     return BRC_OK;

@@ -177,7 +177,7 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
             brc_simulation_striker_body(s, brc_striker_piece_of(s, p).striker)->mass; /* 0 of those that are not free */
     BRC_TRY(brc_upload_state(s, c->mass, value, n + np));
     for (int32_t r = 0; r < n; ++r)
-        value[r] = layout->element_of_row[r] < 0 ? 1 : cbrt(d->volume[layout->element_of_row[r]]);
+        value[r] = layout->element_of_row[r] < 0 ? 1 : cbrt(brc_domain_own_volume(d, layout->element_of_row[r]));
     for (int32_t p = 0; p < np; ++p)
         value[n + p] = 0;
     BRC_TRY(brc_upload_state(s, c->size_of, value, n + np));
@@ -203,7 +203,7 @@ brc_status brc_contact_setup(brc_simulation *s)
     }
     c->n_pieces = s->wants.pieces ? s->wants.pieces->n : 0;
     for (int64_t e = 0; e < d->n_elements; ++e)
-        volume += d->volume[e];
+        volume += brc_domain_own_volume(d, e);
     c->size = cbrt(volume / (double)d->n_elements);
     BRC_TRY(brc_fields_create(s->device, &brc_contact_fields, &s->wants, c));
     BRC_TRY(set_laws(s));

@@ -81,8 +81,8 @@ brc_status brc_bond_areas_closed(brc_context *context, const brc_domain *d, doub
             dyad(n, q);
             for (int k = 0; k < 6; ++k)
                 share += m[k] * q[k];
-            area[d->bond[h]] += 3 * fmin(fmax(share, least), most) * d->volume[e] /
-                                (d->quality.volume_fraction * (double)degree * brc_norm3(branch));
+            area[d->bond[h]] +=
+                3 * fmin(fmax(share, least), most) * d->volume[e] / ((double)degree * brc_norm3(branch));
         }
     }
     return BRC_OK;

@@ -93,5 +93,5 @@ bool brc_wants_lost_beams(const brc_wants *w)
 
 double brc_fracture_volume(const brc_domain *d, int64_t e)
 {
-    return 2 * d->volume[e] / (d->quality.volume_fraction > 0 ? d->quality.volume_fraction : 1);
+    return 2 * d->volume[e];
 }

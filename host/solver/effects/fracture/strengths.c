@@ -92,7 +92,7 @@ double brc_strengths_volume(const brc_domain *d, int64_t bond)
         double sum = 0;
         for (int k = 0; k < 2; ++k)
             sum += d->volume[end[k]] / (double)(d->row_start[end[k] + 1] - d->row_start[end[k]]);
-        return sum / d->quality.volume_fraction;
+        return sum;
     }
     double length = 0, area = 0;
     for (int c = 0; c < 3; ++c) {

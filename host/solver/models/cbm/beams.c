@@ -269,7 +269,7 @@ brc_status brc_beams_stress(brc_simulation *s, int level, double *out)
         const int64_t n = collect(d, whole, e, level, mark, member);
         double total[6] = {0}, volume = 0;
         for (int64_t k = 0; k < n; ++k) {
-            volume += d->volume[member[k]] / d->quality.volume_fraction;
+            volume += d->volume[member[k]];
             for (int c = 0; c < 6; ++c)
                 total[c] += sum[6 * (int64_t)member[k] + c];
         }

@@ -55,8 +55,7 @@ brc_status brc_beams_upload(brc_simulation *s);
 /* Stiffness of element e's own beams. */
 const brc_beam *brc_beam_of_element(const brc_simulation *s, int64_t e);
 /* Stress of every element [n_elements][6] xx yy zz yz xz xy [Pa], averaged over the element and its neighbours over
- * bonds, `level` shells of them (NAH19 section 2.2; 1 in the paper). Volumes are those of the spheres over the
- * packing's volume fraction. */
+ * bonds, `level` shells of them (NAH19 section 2.2; 1 in the paper). */
 brc_status brc_beams_stress(brc_simulation *s, int level, double *out);
 /* Inverses of the 6 x 6 diagonal blocks, upper triangles [n_rows][21]; elements without bonds get zero. */
 brc_status brc_beams_precondition_blocks(brc_simulation *s, double *out);
