@@ -64,16 +64,15 @@ typedef struct brc_domain {
 
     /* elements */
     double *position; /* [n_elements][3] seed X [m] */
-    double *volume;   /* [n_elements] [m^3] of the body that an element stands for: a cell's own; a sphere's own over the
-                         body's volume fraction, so that the body weighs what its material does (NAH19 eq. 15, 16) */
+    double *volume; /* [n_elements] [m^3] of the body that an element stands for: a cell's own; a sphere's own over the
+                       body's volume fraction, so that the body weighs what its material does (NAH19 eq. 15, 16) */
     double *centroid; /* [n_elements][3] centre of mass of the cell [m] */
-    double
-        *inertia; /* [n_elements][6] xx yy zz yz xz xy of the inertia tensor about the centroid at unit density [m^5];
-                     of a sphere 2/5 volume radius^2 */
-    int32_t *region; /* [n_elements] index of the material region (0: the body's own material) */
-    int32_t *body;   /* [n_elements] index of the body */
-    int32_t *grain;  /* [n_elements] index of the grain, numbered through all bodies; NULL: no grains */
-    double *radius;  /* [n_elements] spheres: as packed, before any growth [m]; cells: NULL */
+    double *inertia;  /* [n_elements][6] xx yy zz yz xz xy of the inertia tensor about the centroid at unit density
+                         [m^5];  of a sphere 2/5 volume radius^2 */
+    int32_t *region;  /* [n_elements] index of the material region (0: the body's own material) */
+    int32_t *body;    /* [n_elements] index of the body */
+    int32_t *grain;   /* [n_elements] index of the grain, numbered through all bodies; NULL: no grains */
+    double *radius;   /* [n_elements] spheres: as packed, before any growth [m]; cells: NULL */
 
     /* half-edges: rows sorted by neighbour id; row of element e is row_start[e] .. row_start[e + 1] */
     int64_t *row_start;      /* [n_elements + 1] */

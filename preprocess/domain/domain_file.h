@@ -11,9 +11,9 @@
 /* Written aside, fsynced, renamed. BRC_FILE_FAILED with path and reason (a full disk included). Equal domains give
  * equal bytes. */
 brc_status brc_domain_write(brc_context *context, const brc_domain *domain, const char *path);
-/* Read and check (brc_domain_check). Long arrays of versions 3 and 4 are pages of the file (domain.h), which must not be
- * written over while the domain is there; another file may take its name. Not HDF5, a later version, truncated, missing
- * or misshaped arrays: BRC_BAD_INPUT with path, what was found and what is expected. */
+/* Read and check (brc_domain_check). Long arrays of versions 3 and 4 are pages of the file (domain.h), which must not
+ * be written over while the domain is there; another file may take its name. Not HDF5, a later version, truncated,
+ * missing or misshaped arrays: BRC_BAD_INPUT with path, what was found and what is expected. */
 brc_status brc_domain_read(brc_context *context, const char *path, brc_domain **out);
 
 #endif

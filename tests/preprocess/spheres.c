@@ -44,6 +44,7 @@ brc_domain *test_spheres(brc_context *context, const int count[3], double coordi
     for (int64_t e = 0; e < n; ++e)
         d->body[e] = body;
     brc_quality_measure(d, n_threads);
+    brc_beams_fill(d, d->quality.volume_fraction);
     require(context, brc_sets_build(context, 0, NULL, d));
     require(context, BRC_ALLOCATE(context, &d->provenance, 8, "provenance"));
     strcpy(d->provenance, "by hand");

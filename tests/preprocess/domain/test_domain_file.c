@@ -4,6 +4,7 @@
 #include "../../../host/base/log.h"
 #include "../../../host/base/memory.h"
 #include "../../../preprocess/domain/domain_file.h"
+#include "../../../preprocess/packing/beams.h"
 
 #include <hdf5.h>
 #include <signal.h>
@@ -263,12 +264,35 @@ static void spoil(brc_context *context, void (*change)(hid_t file), const char *
     remove(path);
 }
 
-static void set_version(hid_t file)
+static void write_version(hid_t file, int64_t version)
 {
     const hid_t attribute = H5Aopen(file, "format_version", H5P_DEFAULT);
-    const int64_t version = 99;
     H5Awrite(attribute, H5T_NATIVE_INT64, &version);
     H5Aclose(attribute);
+}
+
+static void set_version(hid_t file)
+{
+    write_version(file, 99);
+}
+
+/* Spheres of version 3 have their own volumes. */
+static void spheres_of_version_3_stand_for_their_part_of_the_body(void **state)
+{
+    const int count[3] = {6, 5, 4};
+    brc_domain *a = test_spheres(*state, count, 8.0, 2, 1), *b;
+    brc_beams_fill(a, 1);
+    assert_int_equal(brc_domain_write(*state, a, path), BRC_OK);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDWR, H5P_DEFAULT);
+    write_version(file, 3);
+    H5Fclose(file);
+    if (brc_domain_read(*state, path, &b) != BRC_OK) fail_msg("%s", brc_context_message(*state));
+    brc_beams_fill(a, a->quality.volume_fraction);
+    assert_memory_equal(a->volume, b->volume, 120 * sizeof(double));
+    assert_memory_equal(a->inertia, b->inertia, 720 * sizeof(double));
+    brc_domain_free(&a);
+    brc_domain_free(&b);
+    remove(path);
 }
 
 static void set_count(hid_t file)
@@ -326,7 +350,7 @@ static void change_a_number(hid_t file)
 
 static void spoiled_files_are_refused_with_what_is_wrong(void **state)
 {
-    spoil(*state, set_version, "format version 99, this program reads versions 1 to 3");
+    spoil(*state, set_version, "format version 99, this program reads versions 1 to 4");
     spoil(*state, set_count, "expected [2147483647]");
     spoil(*state, change_kind, "kind of elements is unknown, expected cells or spheres");
     spoil(*state, delete_array, "'half_edges/twin' is missing");
@@ -408,6 +432,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(spheres_and_grains_are_read_back_bit_for_bit, test_begin, test_end),
         cmocka_unit_test_setup_teardown(files_of_version_1_are_still_read, test_begin, test_end),
         cmocka_unit_test_setup_teardown(files_of_version_2_are_still_read, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(spheres_of_version_3_stand_for_their_part_of_the_body, test_begin, test_end),
         cmocka_unit_test_setup_teardown(numbers_are_stored_as_in_memory_little_endian, test_begin, test_end),
         cmocka_unit_test_setup_teardown(long_arrays_are_pages_of_the_file, test_begin, test_end),
         cmocka_unit_test_setup_teardown(foreign_and_missing_files_are_refused, test_begin, test_end),

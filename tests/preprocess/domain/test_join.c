@@ -4,6 +4,7 @@
 #include "../../../host/base/memory.h"
 #include "../../../preprocess/domain/pose.h"
 
+#include <math.h>
 #include <string.h>
 
 static void joined_bodies_keep_their_numbers_and_share_walls_and_sets(void **state)
@@ -128,6 +129,12 @@ static void spheres_are_joined_with_their_radii_and_walls(void **state)
     assert_int_equal(set->n_members, 20 + 9);
     assert_int_equal(set->members[20], 80 + b->sets[brc_domain_find_set(b, "z-")].members[0]);
     assert_near(d->quality.volume_shape, 80.0 + 27.0, 1e-12);
+    double volume[2] = {0};
+    for (int64_t e = 0; e < 107; ++e)
+        volume[e >= 80] += d->volume[e];
+    assert_true(fabs(a->quality.volume_fraction / b->quality.volume_fraction - 1) > 1e-3);
+    assert_near(volume[0], 80.0, 1e-12); /* each body's spheres stand for all of it */
+    assert_near(volume[1], 27.0, 1e-12);
     assert_near(d->quality.growth, fmax(a->quality.growth, b->quality.growth), 0.0);
     assert_int_equal(d->quality.n_pieces, 2);
     brc_domain_free(&a);

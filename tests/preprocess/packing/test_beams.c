@@ -126,21 +126,26 @@ static void the_mean_coordination_number_is_the_wanted_one(void **state)
     }
 }
 
-static void spheres_have_the_volume_and_inertia_of_spheres(void **state)
+/* A sphere stands for its part of the body, by its own volume. */
+static void spheres_have_the_volume_and_inertia_of_their_part_of_the_body(void **state)
 {
     const int count[3] = {5, 4, 3};
     brc_domain *d = test_spheres(*state, count, 8.0, 2, 1);
     assert_int_equal(d->element_kind, BRC_ELEMENT_SPHERE);
-    double sum = 0.0;
+    double sum = 0.0, all = 0.0;
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        sum += 4.0 / 3.0 * 3.14159265358979323846 * d->radius[e] * d->radius[e] * d->radius[e];
     for (int64_t e = 0; e < d->n_elements; ++e) {
-        const double r = d->radius[e], v = 4.0 / 3.0 * 3.14159265358979323846 * r * r * r;
-        sum += v;
-        assert_near(d->volume[e] / v, 1.0, 1e-15);
+        const double r = d->radius[e], v = 4.0 / 3.0 * 3.14159265358979323846 * r * r * r * 60.0 / sum;
+        all += d->volume[e];
+        assert_near(d->volume[e] / v, 1.0, 1e-14);
         for (int k = 0; k < 6; ++k)
-            assert_near(d->inertia[6 * e + k], k < 3 ? 0.4 * v * r * r : 0.0, 1e-16);
+            assert_near(d->inertia[6 * e + k], k < 3 ? 0.4 * v * r * r : 0.0, 1e-14);
         assert_memory_equal(d->centroid + 3 * e, d->position + 3 * e, 3 * sizeof(double));
     }
+    assert_near(all, 60.0, 1e-12);
     assert_near(d->quality.volume_fraction, sum / 60.0, 1e-14);
+    assert_near(d->quality.volume_cells, sum, 1e-12);
     for (int c = 0; c < 3; ++c) { /* the outermost spheres touch the walls */
         assert_near(d->bounds[0][c], 0.0, 1e-15);
         assert_near(d->bounds[1][c], count[c], 1e-14);
@@ -269,7 +274,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(bonds_are_the_nearest_pairs, test_begin, test_end),
         cmocka_unit_test_setup_teardown(ties_go_to_the_smaller_indices, test_begin, test_end),
         cmocka_unit_test_setup_teardown(the_mean_coordination_number_is_the_wanted_one, test_begin, test_end),
-        cmocka_unit_test_setup_teardown(spheres_have_the_volume_and_inertia_of_spheres, test_begin, test_end),
+        cmocka_unit_test_setup_teardown(spheres_have_the_volume_and_inertia_of_their_part_of_the_body, test_begin,
+                                        test_end),
         cmocka_unit_test_setup_teardown(walls_know_the_spheres_that_touch_them_and_their_first_layer, test_begin,
                                         test_end),
         cmocka_unit_test_setup_teardown(a_layer_reaches_two_radii_deep, test_begin, test_end),

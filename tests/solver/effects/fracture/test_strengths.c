@@ -390,7 +390,7 @@ static void volumes_of_bonds_fill_the_solid(void **state)
         for (int64_t b = 0; b < d->n_bonds; ++b)
             sum += brc_strengths_volume(d, b);
         for (int64_t e = 0; e < d->n_elements; ++e)
-            if (spheres && d->row_start[e + 1] == d->row_start[e]) sum += d->volume[e] / d->quality.volume_fraction;
+            if (spheres && d->row_start[e + 1] == d->row_start[e]) sum += d->volume[e];
         for (int64_t f = 0; f < d->n_free_faces; ++f)
             for (int c = 0; c < 3; ++c)
                 sum += d->free_area_vector[3 * f + c] *
