@@ -352,7 +352,7 @@ static brc_status finish(brc_context *context, const work *w, brc_domain *domain
         brc_log(context, BRC_LOG_INFO, "%d cracks cut %lld bonds", request->n_cracks, (long long)n_cut);
     }
     brc_quality_measure(domain, w->n_threads);
-    if (domain->quality.volume_fraction > 0) brc_beams_fill(domain, domain->quality.volume_fraction);
+    if (domain->element_kind == BRC_ELEMENT_SPHERE) brc_beams_fill(domain, domain->quality.volume_fraction);
     BRC_TRY(measure_among_ranks(context, domain));
     if (domain->element_kind == BRC_ELEMENT_CELL) BRC_TRY(check_volume(context, w, domain));
     brc_features_warn(context, w->solid, domain->quality.mean_spacing, domain);

@@ -292,12 +292,16 @@ static brc_status check_cells(brc_context *context, const brc_domain *d)
     return status;
 }
 
-/* Volume, inertia and centroid follow from radius and position; bonds have a length. */
+/* Inertia and centroid follow from volume, radius and position, volumes but for a factor of the body; bonds have a
+ * length. */
 static brc_status check_spheres(brc_context *context, const brc_domain *d)
 {
     brc_status status = BRC_OK;
+    double per_own = 1; /* volume that a sphere stands for over its own, of the body */
     for (int64_t e = 0; e < d->n_elements && spheres(d) && status == BRC_OK; ++e) {
-        const double r = d->radius[e], volume = 4.1887902047863910 * r * r * r, *x = d->position + 3 * e;
+        const double r = d->radius[e], *x = d->position + 3 * e;
+        if (e == 0 || (d->body && d->body[e] != d->body[e - 1])) per_own = d->volume[e] / brc_sphere_volume(r);
+        const double volume = per_own * brc_sphere_volume(r);
         CHECK(r > 0.0 && isfinite(r), "sphere %lld has the radius %g m", (long long)e, r);
         CHECK(fabs(d->volume[e] - volume) <= SPHERE_ROUNDING * volume,
               "the volume of sphere %lld is not that of its radius", (long long)e);

@@ -165,7 +165,7 @@ static brc_status read_all(brc_context *context, hid_t file, const char *path, b
         return BRC_FAIL(context, status, "%s: the domain in this file is broken; build it again", path);
     brc_file_pages_forget(&d->pages, &d->elsewhere);
     if (version < 2) brc_quality_measure(d, omp_get_max_threads()); /* numbers that the file does not have */
-    if (version > 3 || d->element_kind != BRC_ELEMENT_SPHERE || !(d->quality.volume_fraction > 0)) return BRC_OK;
+    if (version > 3 || d->element_kind != BRC_ELEMENT_SPHERE) return BRC_OK;
     BRC_TRY(brc_domain_take_pages(context, d));
     brc_beams_fill(d, d->quality.volume_fraction);
     return BRC_OK;

@@ -163,9 +163,9 @@ cleanup:
 
 void brc_beams_fill(brc_domain *d, double volume_fraction)
 {
+    const double part = volume_fraction < BRC_LOOSE ? 1 : volume_fraction;
     for (int64_t e = 0; e < d->n_elements; ++e) {
-        const double own = brc_sphere_volume(d->radius[e]);
-        d->volume[e] = own / volume_fraction;
+        d->volume[e] = brc_sphere_volume(d->radius[e]) / part;
         for (int k = 0; k < 3; ++k)
             d->inertia[6 * e + k] = 0.4 * d->volume[e] * d->radius[e] * d->radius[e];
     }
