@@ -133,7 +133,8 @@ brc_status brc_peer_work_write_lammps(brc_context *context, const brc_peer_work 
                      "xyz"[x]);
     brc_text_add(&text, "\nAtoms # %s\n\n", turning ? "bpm/sphere" : "hybrid");
     for (int64_t e = 0; e < d->n_elements; ++e) {
-        const double *x = &d->position[3 * e], sphere[2] = {2 * d->radius[e], work->density};
+        const double *x = &d->position[3 * e],
+                     sphere[2] = {2 * d->radius[e], mass_of(work, e) / brc_sphere_volume(d->radius[e])};
         brc_text_add(&text, "%lld %s", (long long)e + 1, turning ? "1 1 " : "1 ");
         add_numbers(&text, turning ? 2 : 3, turning ? sphere : x, " ");
         brc_text_add(&text, " ");

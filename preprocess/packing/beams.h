@@ -19,8 +19,9 @@ brc_status brc_beams_build(brc_context *context, const brc_solid *solid, double 
 brc_status brc_beams_bond(brc_context *context, double *position, double *radius, int64_t n, double coordination,
                           int n_threads, brc_domain *domain);
 /* Volumes and inertia of spheres as those of a body of which they fill that part (domain.h); until then, and where they
- * fill less than BRC_LOOSE, as grains that lie far apart do, their own. Random packings at rest have 0.55 and more. */
-#define BRC_LOOSE 0.4
+ * fill less than BRC_LOOSE, a third, as grains that lie far apart do, their own. Random packings at rest have 0.55 and
+ * more. */
+#define BRC_LOOSE (1.0 / 3)
 void brc_beams_fill(brc_domain *domain, double volume_fraction);
 /* Wall names and one set per wall: the elements that touch it (depth <= R (1 + 1e-6)); then the sets "<wall>_layer" of
  * those with centres within 2 R of it. Positions are those of the solid: before the pose. Sets may be empty. */

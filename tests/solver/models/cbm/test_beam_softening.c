@@ -263,7 +263,8 @@ static void force_is_the_gradient_of_the_energy_whatever_is_open(void **state)
     close_case(&c);
 }
 
-/* The asked bounds, all along the fracture of a cube that a burst tears. */
+/* The asked bounds, all along the fracture of a cube that a burst tears (1.15 % at 0.35 of the critical step where it
+ * has 1.6 times the energy). */
 static void the_ledger_closes_through_fracture_with_softening(void **state)
 {
     (void)state;
@@ -273,10 +274,11 @@ static void the_ledger_closes_through_fracture_with_softening(void **state)
         bench_case c;
         char stages[512];
         double worst = 0;
-        snprintf(stages, sizeof stages,
-                 "stages:\n  - name: burst\n    solver: {dynamic: {duration: 1 s, time_step: {auto: {safety: %s}}}}\n"
-                 "    initial:\n      - velocity: {gradient: {x: [2e-3 1/s, 5e-4 1/s, 0]}}\n",
-                 safety[k]);
+        snprintf(
+            stages, sizeof stages,
+            "stages:\n  - name: burst\n    solver: {dynamic: {duration: 1.26 s, time_step: {auto: {safety: %s}}}}\n"
+            "    initial:\n      - velocity: {gradient: {x: [1.58e-3 1/s, 3.95e-4 1/s, 0]}}\n",
+            safety[k]);
         open_fracture(&c, (fracture_options){.stages = stages,
                                              .strength = "strength: {tension: 2e-4 Pa, fracture_energy: 1e-8 J/m^2}",
                                              .fracture = NEIGHBOURS,
