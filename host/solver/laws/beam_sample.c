@@ -154,6 +154,15 @@ static void free_test(brc_beam_test **test)
     *test = NULL;
 }
 
+static void take_pull(brc_beam_test *t, const brc_domain *domain, const brc_beam_pull *pull)
+{
+    t->material.beam_radius = pull->radius;
+    t->material.beam_young = pull->beam_young > 0 ? pull->beam_young : 1;
+    t->scene.model.beam_poisson = pull->beam_poisson;
+    t->stage.tolerance = pull->tolerance > 0 ? pull->tolerance : 1e-5;
+    t->stage.preconditioner = preconditioner_of(domain, t->stage.tolerance);
+}
+
 static brc_status make_test(brc_context *context, brc_device *device, const brc_domain *domain,
                             const brc_beam_pull *pull, brc_beam_test **out)
 {
@@ -162,12 +171,7 @@ static brc_status make_test(brc_context *context, brc_device *device, const brc_
     BRC_ENDS_WITH(free_test) brc_beam_test *t = NULL;
     BRC_TRY(BRC_ALLOCATE(context, &t, 1, "elastic sample test"));
     BRC_TRY(find_walls(context, domain, t->set));
-    t->material = (brc_material){.name = "unit",
-                                 .young = 1,
-                                 .poisson = 0.2,
-                                 .density = 1,
-                                 .beam_radius = pull->radius,
-                                 .beam_young = pull->beam_young > 0 ? pull->beam_young : 1};
+    t->material = (brc_material){.name = "unit", .young = 1, .poisson = 0.2, .density = 1};
     t->body = (brc_body){.name = "sample"};
     for (int side = 0; side < 2; ++side) {
         t->loads[side] = (brc_load){.kind = BRC_LOAD_ELEMENT_DISPLACEMENT};
@@ -175,24 +179,19 @@ static brc_status make_test(brc_context *context, brc_device *device, const brc_
         t->loads[side].component[axis] = true;
         t->loads[side].value[axis] = (side ? 0.5 : -0.5) * strain * (domain->bounds[1][axis] - domain->bounds[0][axis]);
     }
-    t->stage = (brc_stage){.name = "pull",
-                           .solver = BRC_SOLVER_STATIC,
-                           .n_loads = 2,
-                           .loads = t->loads,
-                           .tolerance = pull->tolerance > 0 ? pull->tolerance : 1e-5,
-                           .increments = 1};
-    t->stage.preconditioner = preconditioner_of(domain, t->stage.tolerance);
-    t->scene =
-        (brc_scene){.version = 1,
-                    .folder = ".",
-                    .n_materials = 1,
-                    .materials = &t->material,
-                    .model = {.kind = brc_model_of_beams(), .beam_poisson = pull->beam_poisson, .keep_isolated = true},
-                    .n_bodies = 1,
-                    .bodies = &t->body,
-                    .n_stages = 1,
-                    .stages = &t->stage,
-                    .output = {.n_frames = -1}};
+    t->stage =
+        (brc_stage){.name = "pull", .solver = BRC_SOLVER_STATIC, .n_loads = 2, .loads = t->loads, .increments = 1};
+    t->scene = (brc_scene){.version = 1,
+                           .folder = ".",
+                           .n_materials = 1,
+                           .materials = &t->material,
+                           .model = {.kind = brc_model_of_beams(), .keep_isolated = true},
+                           .n_bodies = 1,
+                           .bodies = &t->body,
+                           .n_stages = 1,
+                           .stages = &t->stage,
+                           .output = {.n_frames = -1}};
+    take_pull(t, domain, pull);
     BRC_TRY(brc_simulation_create(context, &t->scene, domain, device, &t->simulation));
     *out = t;
     t = NULL;
@@ -233,7 +232,7 @@ brc_status brc_beam_sample_pull(brc_context *context, brc_device *device, const 
     if (!states->test) {
         BRC_TRY(make_test(context, device, domain, pull, &states->test));
     } else {
-        states->test->material.beam_radius = pull->radius;
+        take_pull(states->test, domain, pull);
         BRC_TRY(brc_simulation_renew(states->test->simulation));
     }
     const brc_beam_test *t = states->test;

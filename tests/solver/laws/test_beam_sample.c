@@ -227,7 +227,7 @@ static void a_renewed_simulation_is_as_good_as_new(void **state)
     done(&b, BRC_ALLOCATE(b.context, &apart.state[0], n, "state"));
     memcpy(apart.state[0], states.state[0], (size_t)n * sizeof(double));
     apart.n = 1;
-    pull.radius = 0.7;
+    pull.radius = 0.7, pull.beam_poisson = 0.1, pull.tolerance = 1e-6;
     done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &pull, &renewed));
     pull.states = &apart;
     done(&b, brc_beam_sample_pull(b.context, b.device, b.domain, &pull, &anew));
