@@ -138,9 +138,9 @@ static void spheres_have_the_volume_and_inertia_of_their_part_of_the_body(void *
     for (int64_t e = 0; e < d->n_elements; ++e) {
         const double r = d->radius[e], v = 4.0 / 3.0 * 3.14159265358979323846 * r * r * r * 60.0 / sum;
         all += d->volume[e];
-        assert_near(d->volume[e] / v, 1.0, 1e-14);
+        assert_near(d->volume[e] / v, 1.0, 1e-15);
         for (int k = 0; k < 6; ++k)
-            assert_near(d->inertia[6 * e + k], k < 3 ? 0.4 * v * r * r : 0.0, 1e-14);
+            assert_near(d->inertia[6 * e + k], k < 3 ? 0.4 * v * r * r : 0.0, 1e-16);
         assert_memory_equal(d->centroid + 3 * e, d->position + 3 * e, 3 * sizeof(double));
     }
     assert_near(all, 60.0, 1e-12);
