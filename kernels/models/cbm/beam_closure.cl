@@ -42,7 +42,8 @@ LAW void closure_ask_ahead(int group, int n_groups, OWN(int) rubs, OWN(int) row_
 #endif
 }
 
-/* The beams of a slot as they were before they broke; lanes whose beams do not bear are bonds home. */
+/* The beams of a slot as they were before they broke; lanes whose beams do not bear are bonds home. Called with a
+ * constant `leans`, here and below, so that beams that broke at once ask for no turn of their neighbours. */
 typedef struct {
     lane bears; /* 1 or 0 */
     lane inv_length0;
@@ -91,7 +92,7 @@ typedef struct {
     lane_sym3 virial; /* its parts off the diagonal twice, cbm_virial_of */
     lane energy;
 } closure_sum;
-LAW closure_sum closure_group(int group, int bits, OWN(int) row_start, OWN(int) other, OWN(int) bears,
+LAW closure_sum closure_sum_of(int group, int bits, OWN(int) row_start, OWN(int) other, OWN(int) bears,
                               OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
                               coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
 {
@@ -111,6 +112,16 @@ LAW closure_sum closure_group(int group, int bits, OWN(int) row_start, OWN(int) 
         sum.energy += carry.energy;
     }
     return sum;
+}
+
+LAW closure_sum closure_group(int group, int bits, OWN(int) row_start, OWN(int) other, OWN(int) bears,
+                              OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                              coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
+{
+    return leans ? closure_sum_of(group, bits, row_start, other, bears, branch, displacement, orientation, axial, bend,
+                                  twist, beam_of, 1, lean)
+                 : closure_sum_of(group, bits, row_start, other, bears, branch, displacement, orientation, axial, bend,
+                                  twist, beam_of, 0, lean);
 }
 
 LAW void closure_add(UPDATE(state) to, int e, coeff x, coeff y, coeff z)
@@ -182,6 +193,39 @@ KERNEL void closure_virial(int n_groups, OWN(int) row_start, OWN(int) other, OWN
     }
 }
 
+/* closure_move for a group; whether one of its beams parts. */
+LAW int closure_move_group(int group, coeff clear, OWN(int) row_start, OWN(int) other, UPDATE(int) bears,
+                           OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                           coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, UPDATE(coeff) lean,
+                           OWN(int) rubs, UPDATE(state) lost, UPDATE(state) gone)
+{
+    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+    const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
+    int parted = 0;
+    for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot) {
+        const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
+        if (!closure_any(rubs[group], slot - row_start[slice], bears, entry)) continue;
+        closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial, bend,
+                                         twist, beam_of, leans, lean);
+        const lane apart = b.shape.strain - clear;
+        if (leans) {
+            const beam_carry before = closure_carry(b, own, leans);
+            b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);
+            const beam_carry after = closure_carry(b, own, leans);
+            const lane share = REAL(0.5) * b.bears * (before.energy - after.energy);
+            lane_store(lean, ((brc_size)slot * LEAN + 6) * C + (brc_size)lane0, b.lean.keeps);
+#define LOSE(l) lost[first + 0x##l] += (state)LANE_ITEM(share, l);
+            LANE_EACH(LOSE)
+#undef LOSE
+        }
+#define PART(l)                                                                                                        \
+    if (bears[entry + 0x##l] && LANE_ITEM(apart, l) > 0) bears[entry + 0x##l] = 0, gone[first + 0x##l] += 1, parted = 1;
+        LANE_EACH(PART)
+#undef PART
+    }
+    return parted;
+}
+
 /* Between the motion of a step and its forces: pushes along cracks fade as these open (lost [n]: half of what that
  * costs), and beams whose ends stand clear of each other bear no more. Both sides of a beam find the same. gone [n]:
  * beams that do not bear any more; mark: the step, where one is. */
@@ -191,34 +235,16 @@ KERNEL void closure_move(int n_groups, int step, coeff clear, OWN(int) row_start
                          PUT(int) mark, UPDATE(state) lost, UPDATE(state) gone)
 {
     FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
         closure_ask_ahead(group, n_groups, rubs, row_start, other, bears, branch);
-        const int last = rubs[group] ? row_start[slice + 1] : row_start[slice];
-        cbm_own own;
-        if (rubs[group]) own = cbm_own_of(group, displacement, orientation, 1);
-        for (int slot = row_start[slice]; slot < last; ++slot) {
-            const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
-            if (!closure_any(rubs[group], slot - row_start[slice], bears, entry)) continue;
-            closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
-                                             bend, twist, beam_of, leans, lean);
-            const lane apart = b.shape.strain - clear;
-            if (leans) {
-                const beam_carry before = closure_carry(b, own, leans);
-                b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);
-                const beam_carry after = closure_carry(b, own, leans);
-                const lane share = REAL(0.5) * b.bears * (before.energy - after.energy);
-                lane_store(lean, ((brc_size)slot * LEAN + 6) * C + (brc_size)lane0, b.lean.keeps);
-#define LOSE(l) lost[first + 0x##l] += (state)LANE_ITEM(share, l);
-                LANE_EACH(LOSE)
-#undef LOSE
-            }
-#define PART(l)                                                                                                        \
-    if (bears[entry + 0x##l] && LANE_ITEM(apart, l) > 0) {                                                             \
-        bears[entry + 0x##l] = 0, gone[first + 0x##l] += 1;                                                            \
-        mark[group] = step;                                                                                            \
-    }
-            LANE_EACH(PART)
-#undef PART
+        if (rubs[group]) {
+            int parted = 0;
+            if (leans)
+                parted = closure_move_group(group, clear, row_start, other, bears, branch, displacement, orientation,
+                                            axial, bend, twist, beam_of, 1, lean, rubs, lost, gone);
+            else
+                parted = closure_move_group(group, clear, row_start, other, bears, branch, displacement, orientation,
+                                            axial, bend, twist, beam_of, 0, lean, rubs, lost, gone);
+            if (parted) mark[group] = step;
         }
     }
 }
