@@ -227,34 +227,45 @@ static void a_crack_carries_the_pushes_along_it(void **state)
 }
 
 /* Along the face alone; within what is held not at all; beyond it without giving energy; and, between cells that are as
- * stiff in every direction, to the balance of what is left and the cohesion, to rounding. */
+ * stiff in every direction, to the balance of what is left and the cohesion, to rounding; but no further than to where
+ * their cells put the sides, and back to even where these put them the other way. */
 static void sides_turn_until_they_pull_evenly(void **state)
 {
     (void)state;
     const lane_vec3 normal = {0, 0.3, 0.4}, uneven = {2, -1, 0.5}, before = {0.02, 0, 0}, none = {0, 0, 0};
-    const lane_vec3 along = soft_beside(uneven, normal);
+    const lane_vec3 along = soft_beside(uneven, normal), far = lane_vec3_scale(1e3, along);
     const double size = sqrt(lane_vec3_dot(along, along));
     const lane_sym3 cells = {40, 55, 70, 3, -5, 8}, alike = {50, 50, 50, 0, 0, 0};
     for (int k = 0; k < 2; ++k) {
         for (double widest = 0; widest < 0.3; widest += 0.07)
             for (double held = 0; held < 1.2 * size; held += 0.1 * size) {
-                const lane_vec3 turn = soft_side(faces[k], widest, uneven, cells, none, held, normal, LANE_ALL);
+                const lane_vec3 turn = soft_side(faces[k], widest, uneven, cells, none, far, held, normal, LANE_ALL);
                 assert_true(fabs(lane_vec3_dot(turn, normal)) < 1e-14);
                 assert_true(lane_vec3_dot(turn, along) >= 0);
                 if (held > size) assert_true(lane_vec3_dot(turn, turn) == 0);
             }
         const double drawn = soft_force(faces[k], 0.1) / 0.1;
-        const lane_vec3 turn = soft_side(faces[k], 0.1, uneven, alike, before, 0, normal, LANE_ALL);
+        const lane_vec3 turn = soft_side(faces[k], 0.1, uneven, alike, before, far, 0, normal, LANE_ALL);
         const lane_vec3 left =
             lane_vec3_more(lane_vec3_more(along, -50, turn), -drawn, lane_vec3_more(before, 1, turn));
         assert_true(lane_vec3_dot(left, left) < 1e-20);
+        const lane_vec3 free = soft_side(faces[k], 0.1, uneven, alike, none, far, 0, normal, LANE_ALL);
+        const double reach = sqrt(lane_vec3_dot(free, free));
+        for (double share = -0.5; share < 2; share += 0.25) {
+            const lane_vec3 lacks = lane_vec3_scale(share, free);
+            const lane_vec3 to = soft_side(faces[k], 0.1, uneven, alike, none, lacks, 0, normal, LANE_ALL);
+            assert_true(fabs(lane_vec3_dot(to, free) / reach - fmin(fmax(share, 0), 1) * reach) < 1e-15);
+        }
+        const lane_vec3 back = lane_vec3_scale(-0.1, free), home = lane_vec3_scale(-5, free);
+        const lane_vec3 returns = soft_side(faces[k], 0.1, uneven, alike, back, home, 0, normal, LANE_ALL);
+        assert_true(lane_vec3_dot(lane_vec3_add(returns, back), lane_vec3_add(returns, back)) < 1e-30);
         /* a face that has hardly opened stays, whatever the products of its secant would be */
-        const lane_vec3 begins = soft_side(faces[k], 1e-300, uneven, alike, none, 0, normal, LANE_ALL);
+        const lane_vec3 begins = soft_side(faces[k], 1e-300, uneven, alike, none, far, 0, normal, LANE_ALL);
         assert_true(lane_vec3_dot(begins, begins) == 0);
         /* a face that is shut opens at its edge once the unevenness is above what the cohesion starts with */
         const lane_vec3 weak = lane_vec3_scale(0.99 * 3 / size, along), strong = lane_vec3_scale(1.5 * 3 / size, along);
-        const lane_vec3 shut = soft_side(faces[k], 0, weak, alike, none, 0, normal, LANE_ALL),
-                        opens = soft_side(faces[k], 0, strong, alike, none, 0, normal, LANE_ALL);
+        const lane_vec3 shut = soft_side(faces[k], 0, weak, alike, none, far, 0, normal, LANE_ALL),
+                        opens = soft_side(faces[k], 0, strong, alike, none, far, 0, normal, LANE_ALL);
         const double v = sqrt(lane_vec3_dot(opens, opens));
         assert_true(lane_vec3_dot(shut, shut) == 0);
         assert_true(v > 0 && fabs(50 * v + soft_force(faces[k], v) - 4.5) < 1e-9);

@@ -20,10 +20,15 @@ static soft_whole seen(const bond *b)
                         soft_cell_of(0, s, s, b->flux, NULL, b->gradient, b->stress, modulus, ell, beta, one_plus_tau),
                     beside =
                         soft_cell_of(1, s, s, b->flux, NULL, b->gradient, b->stress, modulus, ell, beta, one_plus_tau);
-    const lane_vec3 uneven = soft_uneven(own.pulls, beside.pulls),
+#define ROW(l) 0
+    const lane_int none = LANE_MAKE(lane_int, ROW);
+#undef ROW
+    const soft_faces face = {none, none, none, s, b->ratio};
+    const lane_vec3 uneven = soft_uneven(own.pulls, beside.pulls), apart = soft_sides_apart(face, own, beside),
                     normal = soft_turned(s, own.along_area, beside.along_area);
     return (soft_whole){.force = {b->force[0], b->force[1], b->force[2]},
                         .uneven = {uneven.x, uneven.y, uneven.z},
+                        .apart = {apart.x, apart.y, apart.z},
                         .normal = soft_unit((soft_vector){normal.x, normal.y, normal.z}),
                         .mean = soft_first(soft_mean_stress(own, beside))};
 }
@@ -53,7 +58,7 @@ static int ruled_in(const bond *b, double limit, double shear, double reach, dou
 static double edge_of(const bond *b)
 {
     const soft_whole w = seen(b);
-    return soft_edge(0, w.uneven, w.force, w.normal, (soft_vector){b->s[0], b->s[1], b->s[2]}, b->ratio);
+    return soft_edge(w.uneven, w.apart, w.force, w.normal, (soft_vector){b->s[0], b->s[1], b->s[2]}, b->ratio);
 }
 static int edge_ruled_in(const bond *b, double limit)
 {

@@ -272,14 +272,9 @@ LAW lane_vec3 soft_balance(soft_face f, lane widest, lane_vec3 drive, lane_sym3 
     return lane_vec3_where(slides, soft_free_balance(f, widest, freely, k, pulled, axis, slides), stuck);
 }
 
-/* Pushes on a face and along it times this hold its two sides against pulling unevenly: beside lines of contact the
- * stress changes by several times itself from cell to cell, which turns nothing (discs between platens crumbled at 1,
- * quick cracks rubbed off a quarter of the elastic energy at 3; docs/notebook/fracture.md). Of a face that is still
- * whole, SOFT_EDGE_HELD. */
-#define SOFT_UNEVEN_HELD REAL(10)
-#define SOFT_EDGE_HELD REAL(3)
-/* Sides of a broken face that did not turn, |v|^2 below this times |w|^2, no longer do: they fly apart. */
-#define SOFT_UNEVEN_RESTS REAL(0.02)
+/* Sides of a broken face with |v|^2 below this times |w|^2, which nothing pushes along the crack, fly apart: they no
+ * longer turn. */
+#define SOFT_SIDES_EVEN REAL(0.02)
 
 /* a without its part along n, a vector of any length. */
 LAW lane_vec3 soft_beside(lane_vec3 a, lane_vec3 n)
@@ -291,8 +286,8 @@ LAW lane_vec3 soft_beside(lane_vec3 a, lane_vec3 n)
  * pulls than the other, were they to stay [N]; sides: stiffness of both; before: what they are against each other now;
  * widest: opening of the face; even: what of the unevenness friction bears [N]. The cohesion draws this back as it
  * draws back the opening. A face that only turns opens by this alone. asked: the lanes that count, 0 in the others. */
-LAW lane_vec3 soft_side(soft_face f, lane widest, lane_vec3 uneven, lane_sym3 sides, lane_vec3 before, lane even,
-                        lane_vec3 normal, lane_mask asked)
+LAW lane_vec3 soft_side(soft_face f, lane widest, lane_vec3 uneven, lane_sym3 sides, lane_vec3 before, lane_vec3 lacks,
+                        lane even, lane_vec3 normal, lane_mask asked)
 {
     const lane_mask opened = LANE_LESS(LANE_ZERO, widest);
     const lane drawn = soft_secant(f, widest);
@@ -305,7 +300,9 @@ LAW lane_vec3 soft_side(soft_face f, lane widest, lane_vec3 uneven, lane_sym3 si
     const lane along = (REAL(1) - even / size) * lane_vec3_dot(way, drive),
                stiff = lane_vec3_dot(way, lane_sym3_mul_vec(sides, way));
     const lane first = soft_opening(f, widest, along, stiff, turns & ~opened);
-    return lane_vec3_where(turns, lane_vec3_scale(LANE_WHERE(opened, along / (stiff + drawn), first), way),
+    const lane most = soft_above(lane_max(lane_vec3_dot(way, lacks), -lane_vec3_dot(way, before)), 0);
+    return lane_vec3_where(turns,
+                           lane_vec3_scale(lane_min(LANE_WHERE(opened, along / (stiff + drawn), first), most), way),
                            lane_vec3_zero());
 }
 

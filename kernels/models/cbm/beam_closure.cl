@@ -93,8 +93,8 @@ typedef struct {
     lane energy;
 } closure_sum;
 LAW closure_sum closure_sum_of(int group, int bits, OWN(int) row_start, OWN(int) other, OWN(int) bears,
-                              OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
-                              coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
+                               OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
+                               coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
     const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
@@ -196,8 +196,8 @@ KERNEL void closure_virial(int n_groups, OWN(int) row_start, OWN(int) other, OWN
 /* closure_move for a group; whether one of its beams parts. */
 LAW int closure_move_group(int group, coeff clear, OWN(int) row_start, OWN(int) other, UPDATE(int) bears,
                            OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
-                           coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, UPDATE(coeff) lean,
-                           OWN(int) rubs, UPDATE(state) lost, UPDATE(state) gone)
+                           coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, UPDATE(coeff) lean, OWN(int) rubs,
+                           UPDATE(state) lost, UPDATE(state) gone)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
     const cbm_own own = cbm_own_of(group, displacement, orientation, 1);

@@ -119,23 +119,26 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
             drive = lane_vec3_sub(
                 drive, lane_vec3_where(slides, lane_vec3_scale(whole, soft_passed(mean, axis, normal)), none));
         }
-        const lane_vec3 carried = lane_vec3_scale(keeps, soft_carried(mean, axis, normal));
+        const lane_vec3 push = soft_carried(mean, axis, normal), carried = lane_vec3_scale(keeps, push);
         const lane held = soft_size(carried);
         const lane_vec3 found =
             soft_balance(law, r.widest, drive, stiffness, soft_secant(law, lane_max(soft_size(before), r.widest)), axis,
                          before, friction, carried, retention * soft_keeps(r.widest, REAL(2) * soft_end(law)) * held);
         const lane_vec3 now = lane_vec3_where(slides, found, soft_outside(found, normal));
-        const lane w = soft_size(now), even = SOFT_UNEVEN_HELD * (held + soft_above(-lane_vec3_dot(pull, axis), 0));
+        const lane w = soft_size(now),
+                   even = soft_above(-lane_vec3_dot(pull, axis), 0) / (f.ratio * LANE_SQRT(soft_size(s)));
         const lane_vec3 side_before = soft_rows(edge_opening, f.entry);
+        const lane_vec3 moved = lane_vec3_sub(now, before),
+                        lacks = soft_sides_lack(f, own, beside, lane_vec3_dot(lane_vec3_sub(given, taken), s), share,
+                                                moved, side_before);
         const lane_vec3 uneven =
-            lane_vec3_sub(soft_uneven(own.pulls, beside.pulls),
-                          lane_sym3_mul_vec(lane_sym3_sub(here, there), lane_vec3_sub(now, before)));
-        const lane_mask rests = slides | (soft_apart(f, open) & LANE_LESS(lane_vec3_dot(side_before, side_before),
-                                                                          SOFT_UNEVEN_RESTS * w * w));
-        const lane_vec3 turn =
-            soft_side(law, lane_max(w, r.widest), uneven, stiffness, side_before, even, normal, ~rests);
+            lane_vec3_sub(soft_uneven(own.pulls, beside.pulls), lane_sym3_mul_vec(lane_sym3_sub(here, there), moved));
+        const lane_mask small = LANE_LESS(lane_vec3_dot(side_before, side_before), SOFT_SIDES_EVEN * w * w),
+                        rests = soft_apart(f, open) & small & ~soft_is_pushed(r, push);
+        const lane_vec3 turn = soft_side(law, lane_max(w, r.widest), uneven, stiffness, side_before, lacks, even,
+                                         normal, ~(slides | rests));
         const lane_vec3 side = lane_vec3_add(side_before, turn), edge_shift = lane_vec3_add(r.edge_shift, turn),
-                        shift = lane_vec3_add(r.shift, lane_vec3_sub(now, before));
+                        shift = lane_vec3_add(r.shift, moved);
         const lane edge = lane_vec3_dot(side, side), both = LANE_SQRT(w * w + edge);
         const lane_mask wears = LANE_LESS(r.widest, both);
         const lane leans = LANE_WHERE(slides, lane_number(1), soft_leans(r.cosine, now, normal, edge, both, steepest));
@@ -157,15 +160,15 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
 }
 
 /* Sides of faces without cohesion that stand clear of each other. release: gap over the length of the bond from which
- * on sides that carry pushes along the crack, more than a tenth of what they held at the onset, do; a fifth of it where
- * they do not: opened by that, the two cells only hinder each other's turning. */
+ * on sides that are pushed along the crack (soft_is_pushed) do; a fifth of it where they are not: opened by that, the
+ * two cells only hinder each other's turning. */
 LAW lane_mask soft_parts(soft_faces f, soft_record r, soft_cell own, soft_cell beside, lane_vec3 w, coeff release)
 {
     const lane_vec3 axis = soft_unit_of(soft_turned(r.axis, own.along_axis, beside.along_axis)),
                     push = soft_carried(soft_mean_stress(own, beside), axis,
                                         soft_turned(f.area, own.along_area, beside.along_area));
-    const lane much = REAL(0.1) * r.start, far = release * f.ratio * soft_size(f.area);
-    const lane_mask bears = soft_slides(r) | LANE_LESS(much * much, lane_vec3_dot(push, push));
+    const lane far = release * f.ratio * soft_size(f.area);
+    const lane_mask bears = soft_slides(r) | soft_is_pushed(r, push);
     return soft_is_clear(w, axis, LANE_WHERE(bears, far, REAL(0.2) * far));
 }
 

@@ -96,6 +96,12 @@ LAW soft_record soft_record_of(GATHER(coeff) crack, lane_int entry)
 }
 LAW soft_face soft_law_of(soft_record r) { return (soft_face){r.start, r.energy * r.tilt, r.exponential}; }
 LAW lane_mask soft_slides(soft_record r) { return LANE_LESS(lane_number(1), r.turns); }
+/* More than a tenth of what the cohesion held at the onset. push: soft_carried. */
+LAW lane_mask soft_is_pushed(soft_record r, lane_vec3 push)
+{
+    const lane much = REAL(0.1) * r.start;
+    return LANE_LESS(much * much, lane_vec3_dot(push, push));
+}
 /* Faces whose cohesion has ended. */
 LAW lane_mask soft_apart(soft_faces f, GATHER(int) open)
 {
@@ -200,6 +206,20 @@ LAW lane_sym3 soft_mean_stress(soft_cell own, soft_cell beside) { return lane_sy
 LAW lane_vec3 soft_turned(lane_vec3 a, lane_vec3 along, lane_vec3 along_beside)
 {
     return lane_vec3_more(a, lane_number(REAL(0.5)), lane_vec3_add(along, along_beside));
+}
+/* v of sides that lie where their own cells put them [m]: (H_j - H_i) R / 2, R = s q the branch across the face. */
+LAW lane_vec3 soft_sides_apart(soft_faces f, soft_cell own, soft_cell beside)
+{
+    return lane_vec3_scale(REAL(0.5) * f.ratio, lane_vec3_sub(beside.along_area, own.along_area));
+}
+
+/* How far v is from there once the face has opened by `moved` more, as an opening turns its cells [m]: given: (A_i^-1 s
+ * - A_j^-1 s).s; share: of v that the two gradients take up. */
+LAW lane_vec3 soft_sides_lack(soft_faces f, soft_cell own, soft_cell beside, lane given, lane share, lane_vec3 moved,
+                              lane_vec3 v)
+{
+    const lane_vec3 apart = lane_vec3_more(soft_sides_apart(f, own, beside), REAL(0.5) * f.ratio * given, moved);
+    return lane_vec3_scale(REAL(1) / soft_above(REAL(1) - share, REAL(0.05)), lane_vec3_sub(apart, v));
 }
 /* How a cell at the end of a face draws back when the face opens [N/m]; pull: A^-1 s [1/m]. */
 LAW lane_vec3 soft_pull_of(lane_int row, lane_vec3 s, GATHER(coeff) inv_shape)

@@ -18,25 +18,36 @@ LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_v
 }
 
 /* Stress at the edge of a face that turns about the other edge [Pa], its traction even: of the moment that the uneven
- * pulls of the two cells make over the length of the bond, and of the force across it; a push on the solid there holds
- * it. Nothing in the middle of a face shows that a crack, which has come to one side of it, bends it. least: smallest
- * principal stress [Pa]; n: unit normal. */
-LAW coeff soft_edge(coeff least, soft_vector uneven, soft_vector force, soft_vector n, soft_vector s, coeff ratio)
+ * pulls of the two cells make over the length of the bond, as far as it turns the sides the way they are apart, and of
+ * the force across it. Nothing in the middle of a face shows that a crack, which has come to one side of it, bends it.
+ * apart: soft_sides_apart; n: unit normal. */
+LAW coeff soft_edge(soft_vector uneven, soft_vector apart, soft_vector force, soft_vector n, soft_vector s, coeff ratio)
 {
-    const coeff area = SQRT(soft_dot(s, s)), across = soft_dot(force, n) / area;
-    const soft_vector along = soft_add(uneven, -soft_dot(uneven, n), n);
-    return SQRT(soft_dot(along, along)) * ratio / SQRT(area) + SOFT_EDGE_HELD * (least < 0 ? least : REAL(0)) +
-           (across > 0 ? across : REAL(0));
+    const coeff area = SQRT(soft_dot(s, s));
+    const soft_vector turn = soft_add(apart, -soft_dot(apart, n), n);
+    const coeff size = SQRT(soft_dot(turn, turn)), along = size > 0 ? soft_dot(uneven, turn) / size : REAL(0);
+    return (along > 0 ? along : REAL(0)) * ratio / SQRT(area) + soft_dot(force, n) / area;
 }
 
 /* 0: the bond stays shut, known without principal values: none of its stress is above the limit, nor its edge's, and no
- * plane slides (sums of Mohr and Coulomb, on the face or any plane, are at most 2 (1 + slope) times the norm). edge: at
- * least what soft_edge finds; limit, shear_limit: as much of the bond's as counts [Pa]; shear_limit 0: none slides. */
+ * plane slides (sums of Mohr and Coulomb, on the face or any plane, are at most 2 (1 + slope) times the norm). limit,
+ * shear_limit: as much of the bond's as counts [Pa]; shear_limit 0: none slides. */
 LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shear_limit, coeff slope)
 {
     const coeff shear = REAL(0.5) * SOFT_ABS(shear_limit);
     return !(edge < REAL(0.999) * limit) ||
            failure_possible(stress, (failure_limits){limit, 0, shear}, (failure_shear){0, slope, slope});
+}
+
+/* Cosine of the normal of a face to the axis of its crack: by the mean stress of its two cells, as that at the bond
+ * leans towards the normal; where that mean is less than half of what opens the face, a bond that bridges a crack, by
+ * the bond's own, `size`. */
+LAW coeff soft_cosine(failure_stress mean, soft_vector normal, coeff worst, coeff size, coeff steepest)
+{
+    const failure_principal whole = failure_principal_of(mean);
+    const soft_vector axis = {whole.first_axis.x, whole.first_axis.y, whole.first_axis.z};
+    const coeff c = SOFT_ABS(soft_dot(normal, axis));
+    return whole.first < REAL(0.5) * worst ? size : c < steepest ? steepest : c;
 }
 
 LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
@@ -62,10 +73,10 @@ LAW soft_vector soft_turned_back(GATHER(coeff) gradient, int i, int j, soft_vect
     return soft_add(a, REAL(0.5), sum);
 }
 
-/* One face whose openings are all 0: the force of the bond and how unevenly its sides pull [N], its area vector and the
- * mean stress in the present frame. */
+/* One face whose openings are all 0: the force of the bond and how unevenly its sides pull [N], soft_sides_apart, its
+ * area vector and the mean stress in the present frame. */
 typedef struct {
-    soft_vector force, uneven, normal;
+    soft_vector force, uneven, apart, normal;
     failure_stress mean;
 } soft_whole;
 LAW soft_whole soft_whole_at(soft_faces f, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
@@ -78,9 +89,9 @@ LAW soft_whole soft_whole_at(soft_faces f, coeff k_one, coeff ell_one, coeff bet
                                           one_plus_tau);
     const lane_vec3 force = soft_bond_force(own.pulls, beside.pulls, soft_modulus(f, modulus, k_one) * one_plus_tau,
                                             f.ratio, soft_jump(f, displacement)),
-                    uneven = soft_uneven(own.pulls, beside.pulls),
+                    uneven = soft_uneven(own.pulls, beside.pulls), apart = soft_sides_apart(f, own, beside),
                     normal = soft_turned(f.area, own.along_area, beside.along_area);
-    return (soft_whole){SOFT_LANE(force, 0), SOFT_LANE(uneven, 0), SOFT_LANE(normal, 0),
+    return (soft_whole){SOFT_LANE(force, 0), SOFT_LANE(uneven, 0), SOFT_LANE(apart, 0), SOFT_LANE(normal, 0),
                         soft_first(soft_mean_stress(own, beside))};
 }
 
@@ -93,19 +104,18 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
 {
     if (!(limit[entry] < CELLS_NEVER)) return 0;
     const int both = n_open[e] && n_open[neighbour[entry]];
-    const soft_vector s = soft_row(area, entry), none = {0, 0, 0};
+    const soft_vector s = soft_row(area, entry);
     const soft_whole now = soft_whole_at(soft_face_of(e, entry, neighbour, area, ratio), k_one, ell_one, beta,
                                          one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
-    const soft_vector force = now.force, uneven = both ? now.uneven : none, normal = soft_unit(now.normal);
+    const soft_vector force = now.force, normal = soft_unit(now.normal);
     const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
     const failure_stress whole = soft_stress(now.mean, traction, normal);
-    const coeff edge_most = both ? soft_edge(0, uneven, force, normal, s, ratio[entry]) : REAL(0);
-    if (!soft_possible(whole, edge_most, share * limit[entry], shears ? share * shear_limit[entry] : REAL(0), slope))
+    const coeff edge = both ? soft_edge(now.uneven, now.apart, force, normal, s, ratio[entry]) : REAL(0);
+    if (!soft_possible(whole, edge, share * limit[entry], shears ? share * shear_limit[entry] : REAL(0), slope))
         return 0;
     const failure_principal largest = failure_principal_of(whole);
     const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
     const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
-    const coeff edge = both ? soft_edge(largest.third, uneven, force, normal, s, ratio[entry]) : REAL(0);
     const int bends = edge > largest.first;
     const coeff worst = bends ? edge : largest.first;
     if (shears) {
@@ -127,7 +137,7 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : size;
+    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, worst, size, steepest);
     soft_put(crack, (int)entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
     return 1;
 }
