@@ -70,8 +70,8 @@ typedef enum brc_measure_kind {
     BRC_MEASURE_MEAN,      /* time mean over the window */
     BRC_MEASURE_RATE,      /* slope of a sensor against time, straight line through the window [sensor's unit/s] */
     BRC_MEASURE_INTEGRAL,  /* of a sensor over time, by trapezoids [sensor's unit s] */
-    BRC_MEASURE_DURATION,  /* time during which a sensor's magnitude is above a share of its largest, straight lines
-                              between samples [s] */
+    BRC_MEASURE_DURATION,  /* time during which a sensor's magnitude is above a share of its largest, or the sensor
+                              within a share of its first value, straight lines between samples [s] */
     BRC_MEASURE_AT_FIRST_BREAK /* value of a sensor when the first bond of the window breaks, between samples by a
                                   straight line */
 } brc_measure_kind;
@@ -86,6 +86,7 @@ typedef struct brc_measure {
     bool has_target;
     double target; /* in the unit of the result */
     double above;  /* duration: share of the largest magnitude, in [0, 1) */
+    double within; /* duration: share of the first value, in (0, 1), in place of above; 0: not given */
     double scale;  /* result = scale * operator, default 1 (e.g. -1 for a reaction on the other side) */
 } brc_measure;
 

@@ -324,13 +324,16 @@ static const brc_entry OF_DURATION[] = {
     SENSOR_ENTRY("of", y, "force", "sensor"),
     {"above", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_measure, above), .given = "0.1 %",
      .sample = "0.1 %", .meaning = "share of its largest magnitude in the window"},
+    {"within", BRC_TYPE_QUANTITY, "", STRICTLY_WITHIN(0, 1), FIELD(brc_measure, within), .sample = "2 %",
+     .meaning = "in its place: how long it is no farther than this share of its first value from it"},
     COMMON_ENTRIES("1 ms"),
 };
 static const brc_section DURATION_SECTION = {
     .title = "duration",
     .meaning = "How long the magnitude of a sensor is above a share of its largest, all times together, between "
                "samples by a straight line: of a force, the time of contact.",
-    ENTRIES(OF_DURATION)};
+    ENTRIES(OF_DURATION),
+    .groups = {{BRC_GROUP_AT_MOST_ONE, {"above", "within"}}}};
 static const brc_section AT_FIRST_BREAK_SECTION = {.title = "at_first_break",
                                                    .meaning =
                                                        "The value when the first bond breaks, between samples by a "

@@ -163,6 +163,21 @@ static double peak(const brc_measure_series *series)
     return most;
 }
 
+/* Time no farther from the first value than this share of it. */
+static void time_near_first(const brc_measure_series *series, double share, brc_measured *measured)
+{
+    const double far = share * fabs(series->y[0]);
+    double sum = 0;
+    for (int64_t k = 1; k < series->n; ++k) {
+        const double a = series->y[k - 1] - series->y[0], b = series->y[k] - series->y[0];
+        sum += (series->time[k] - series->time[k - 1]) * (1 - share_above(a, b, far) - share_above(-a, -b, far));
+    }
+    if (far > 0)
+        measured->value = sum;
+    else
+        why_not(measured, "a share of the first value needs one; the first value is 0");
+}
+
 /* Slope of y against time. */
 static void rate(const brc_measure_series *series, brc_measured *measured)
 {
@@ -269,7 +284,11 @@ brc_status brc_measure_evaluate(brc_context *context, const brc_scene *scene, co
         case BRC_MEASURE_MEAN: out->value = time_mean(&series); break;
         case BRC_MEASURE_INTEGRAL: out->value = integral(&series); break;
         case BRC_MEASURE_DURATION:
-            out->value = measure->scale * duration(&series, measure->above * fabs(peak(&series)));
+            if (measure->within > 0)
+                time_near_first(&series, measure->within, out);
+            else
+                out->value = duration(&series, measure->above * fabs(peak(&series)));
+            out->value *= measure->scale;
             break;
         case BRC_MEASURE_RATE: rate(&series, out); break;
         case BRC_MEASURE_AT_FIRST_BREAK: at_time(&series, first_break(scene, history, cracks, measure), out); break;

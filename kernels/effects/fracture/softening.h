@@ -272,6 +272,11 @@ LAW lane_vec3 soft_balance(soft_face f, lane widest, lane_vec3 drive, lane_sym3 
     return lane_vec3_where(slides, soft_free_balance(f, widest, freely, k, pulled, axis, slides), stuck);
 }
 
+/* Broken faces take this times the part of the stiffness that others take (0.6, cell_softening.c).
+ * Nothing but the cells draws them back, and where all faces of a cell on one side are broken and move at once, sweeps
+ * with less than 0.7 of the stiffness overshoot and gain energy without end (test_cell_softening). */
+#define SOFT_BROKEN_PART REAL(1.3333333333333333)
+
 /* Sides of a broken face with |v|^2 below this times |w|^2, which nothing pushes along the crack, fly apart: they no
  * longer turn. */
 #define SOFT_SIDES_EVEN REAL(0.02)

@@ -32,26 +32,35 @@ KERNEL void soft_take_force(int n_groups, OWN(int) row_start, OWN(int) neighbour
 }
 
 /* Before the sweeps of a step: faces that nothing holds go on opening as in the last step, so that what the sweeps
- * leave of the balance is no drag on sides that fly apart. */
+ * leave of the balance is no drag on sides that fly apart. What is pushed along the crack goes on along the axis alone:
+ * its sides slide against what they carry, which coasting would take back. */
 KERNEL void soft_coast(int n_items, int n_faces, OWN(int) face_row, OWN(int) face_entry, GATHER(int) neighbour,
                        GATHER(int) twin, GATHER(int) open, GATHER(coeff) area, GATHER(coeff) ratio,
-                       GATHER(coeff) gradient, SCATTER(coeff) crack, SCATTER(coeff) opening)
+                       GATHER(coeff) gradient, GATHER(coeff) stress, SCATTER(coeff) crack, SCATTER(coeff) opening)
 {
     FOR_EACH_ITEM(item, n_items) {
         const soft_faces f = soft_faces_at(item, n_faces, face_row, face_entry, neighbour, area, ratio);
         const lane_int other = soft_ints(twin, f.entry);
         const lane_vec3 none = lane_vec3_zero(), before = soft_rows(opening, f.entry);
         lane_mask flies = soft_apart(f, open);
-        lane_vec3 shift = none, now = before;
+        lane_vec3 shift = none;
         if (LANE_SOME(flies)) {
-            const lane_vec3 a = soft_vector_of(crack, f.entry, SOFT_AXIS);
-            const lane_vec3 axis = soft_unit_of(soft_turned(a, lane_mat3_mul_vec(lane_gather9(gradient, f.e), a),
-                                                            lane_mat3_mul_vec(lane_gather9(gradient, f.j), a)));
-            const lane_vec3 last = soft_vector_of(crack, f.entry, SOFT_SHIFT), on = lane_vec3_add(before, last);
-            flies = flies & LANE_LESS(LANE_ZERO, lane_vec3_dot(before, axis)) &
-                    LANE_LESS(LANE_ZERO, lane_vec3_dot(on, axis));
-            shift = lane_vec3_where(flies, last, none), now = lane_vec3_where(flies, on, before);
+            const soft_record r = soft_record_of(crack, f.entry);
+            const lane_mat3 h = lane_gather9(gradient, f.e), beside = lane_gather9(gradient, f.j);
+            const lane_vec3 axis = soft_unit_of(
+                                soft_turned(r.axis, lane_mat3_mul_vec(h, r.axis), lane_mat3_mul_vec(beside, r.axis))),
+                            normal =
+                                soft_turned(f.area, lane_mat3_mul_vec(h, f.area), lane_mat3_mul_vec(beside, f.area));
+            const lane_sym3 mean = lane_sym3_add(soft_half_stress(h, lane_gather9(stress, f.e)),
+                                                 soft_half_stress(beside, lane_gather9(stress, f.j)));
+            const lane along = lane_vec3_dot(r.shift, axis);
+            const lane_vec3 on = lane_vec3_where(soft_is_pushed(r, soft_carried(mean, axis, normal)),
+                                                 lane_vec3_scale(along, axis), r.shift);
+            const lane gap = lane_vec3_dot(before, axis);
+            flies = flies & LANE_LESS(LANE_ZERO, gap) & LANE_LESS(LANE_ZERO, gap + along);
+            shift = lane_vec3_where(flies, on, none);
         }
+        const lane_vec3 now = lane_vec3_add(before, shift);
 #define COAST(l)                                                                                                       \
     if (item * W + 0x##l < n_faces) {                                                                                  \
         const int own = LANE_ITEM(f.entry, l), its = LANE_ITEM(other, l);                                              \
@@ -105,9 +114,10 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
         const lane_vec3 given = soft_pull_of(f.e, s, inv_shape), taken = soft_pull_of(f.j, s, inv_shape);
         const lane share = REAL(0.5) * f.ratio * lane_vec3_dot(s, lane_vec3_add(given, taken));
         const lane bond = stiffen * soft_bond_stiffness(k, f.ratio, share, beta, one_plus_tau);
+        const lane part = LANE_WHERE(soft_apart(f, open), lane_number(SOFT_BROKEN_PART), lane_number(1));
         const lane_sym3 here = soft_draws_back(f.e, given, stiffen, inv_volume, plane, shear, reach),
                         there = soft_draws_back(f.j, taken, stiffen, inv_volume, plane, shear, reach),
-                        stiffness = lane_sym3_scale_shift(lane_number(1), lane_sym3_add(here, there), bond);
+                        stiffness = lane_sym3_scale_shift(part, lane_sym3_add(here, there), part * bond);
         const soft_face law = soft_law_of(r);
         const lane_mask slides = soft_slides(r);
         lane keeps = soft_keeps(r.widest, release * f.ratio * soft_size(s));

@@ -199,6 +199,24 @@ static void a_duration_counts_what_lies_above_its_share_of_the_peak(void **state
     brc_history_free(&h);
 }
 
+/* Within 2 of the first value, -8: half of the interval to -4 and of that back, 2 of 3 on the way to -11, and from
+ * there to -1 what lies between -10 and -6, 4 of 10. */
+static void a_duration_counts_what_lies_within_a_share_of_the_first_value(void **state)
+{
+    (void)state;
+    brc_history *h;
+    assert_int_equal(brc_history_create(test_context, 4, &h), BRC_OK);
+    for (int k = 0; k < 5; ++k)
+        brc_history_add(test_context, h, 1, k, 2 * k, 2 * k,
+                        (double[]){(double[]){-8, -4, -8, -11, -1}[k], 1.0 * (k > 1), 0, NAN});
+    brc_measure measure = {
+        .name = "d", .kind = BRC_MEASURE_DURATION, .y = "force", .stage = "ring", .scale = 3, .within = 0.25};
+    assert_true(fabs(evaluate(&measure, NULL, h).value - 3 * 2 * (0.5 + 0.5 + 2.0 / 3 + 0.4)) < 1e-14);
+    snprintf(measure.y, sizeof measure.y, "lateral"); /* which is 0 at first, and then not */
+    assert_non_null(strstr(evaluate(&measure, NULL, h).why_not, "first value is 0"));
+    brc_history_free(&h);
+}
+
 static void the_first_break_is_met_between_samples(void **state)
 {
     (void)state;
@@ -242,6 +260,7 @@ int main(void)
         cmocka_unit_test(a_rate_is_a_line_through_the_window),
         cmocka_unit_test(the_first_break_is_met_between_samples),
         cmocka_unit_test(a_duration_counts_what_lies_above_its_share_of_the_peak),
+        cmocka_unit_test(a_duration_counts_what_lies_within_a_share_of_the_first_value),
         cmocka_unit_test(the_modulus_is_force_over_the_flat_area_of_the_set),
         cmocka_unit_test(poissons_ratio_is_minus_the_slope_and_its_error_absolute),
         cmocka_unit_test(a_frequency_leaves_out_the_early_last_sample),
