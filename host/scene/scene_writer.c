@@ -59,7 +59,6 @@ static bool is_written(const brc_section *section, const brc_entry *entry, const
     if (entry->another) return false;
     if (entry->has_flag) return base[entry->has_offset];
     if (entry->required || entry->type == BRC_TYPE_MATERIAL) return true;
-    if (!is_absent(entry, base)) return true;
     for (size_t g = 0; g < sizeof section->groups / sizeof section->groups[0]; ++g) {
         const brc_group *group = &section->groups[g];
         if (group->rule == BRC_GROUP_AT_MOST_ONE && entry->given && is_in_group(group, entry->key))
@@ -67,6 +66,10 @@ static bool is_written(const brc_section *section, const brc_entry *entry, const
                 const brc_entry *other = brc_section_find(section, group->keys[k]);
                 if (other != entry && !is_absent(other, base)) return false;
             }
+    }
+    if (!is_absent(entry, base)) return true;
+    for (size_t g = 0; g < sizeof section->groups / sizeof section->groups[0]; ++g) {
+        const brc_group *group = &section->groups[g];
         const bool due = group->rule == BRC_GROUP_AT_LEAST_ONE || group->rule == BRC_GROUP_EXACTLY_ONE;
         if (!due || strcmp(group->keys[0], entry->key) != 0) continue;
         bool any = false; /* the reader wants one: the first, though it is zero */
