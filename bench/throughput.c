@@ -12,6 +12,15 @@
 
 #define SAMPLES 5
 
+/* What was measured of one combination. A machine whose memory changes its speed while it runs would be held against
+ * what it was before: each sample lies between two copies, and its fraction is of their mean. */
+typedef struct sampling {
+    double seconds[SAMPLES];    /* of a step, ascending */
+    double copies[SAMPLES + 1]; /* [byte/s], ascending */
+    double fractions[SAMPLES];  /* of the mean of the copies before and after, ascending */
+    int64_t n_steps;            /* a sample */
+} sampling;
+
 static int ascending(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -28,10 +37,9 @@ static brc_status time_steps(brc_simulation *simulation, int64_t n, double *seco
     return BRC_OK;
 }
 
-/* Five samples of seconds per step, ascending. */
-static brc_status sample_steps(brc_simulation *simulation, double least, double samples[SAMPLES], int64_t *n_steps)
+/* Steps of a sample: as many as take `least` seconds. */
+static brc_status choose_steps(brc_simulation *simulation, double least, int64_t *n_steps)
 {
-    BRC_TRY(brc_simulation_begin_stage(simulation, 0));
     double seconds;
     BRC_TRY(time_steps(simulation, 3, &seconds)); /* kernels are built, pages touched */
     int64_t n = 1;
@@ -42,34 +50,53 @@ static brc_status sample_steps(brc_simulation *simulation, double least, double 
         n = n + 1 > (int64_t)wanted ? n + 1 : (int64_t)wanted;
         BRC_TRY(time_steps(simulation, n, &seconds));
     }
-    for (int k = 0; k < SAMPLES; ++k) {
-        BRC_TRY(time_steps(simulation, n, &seconds));
-        samples[k] = seconds / (double)n;
-    }
-    qsort(samples, SAMPLES, sizeof *samples, ascending);
     *n_steps = n;
     return BRC_OK;
 }
 
-static void add_figures(brc_rows *rows, const brc_domain *domain, const brc_simulation *simulation,
-                        int64_t device_bytes, double bandwidth, const double samples[SAMPLES], int64_t n_steps)
+static brc_status sample(const brc_throughput_request *request, brc_device *device, brc_simulation *simulation,
+                         sampling *out)
 {
-    const double per_step = samples[SAMPLES / 2], floor_bytes = brc_simulation_floor_bytes(simulation);
+    const double floor_bytes = brc_simulation_floor_bytes(simulation);
+    BRC_TRY(brc_simulation_begin_stage(simulation, 0));
+    BRC_TRY(choose_steps(simulation, request->sample_s, &out->n_steps));
+    for (int k = 0; k <= SAMPLES; ++k) {
+        BRC_TRY(brc_device_copy_bandwidth(device, request->bandwidth_bytes, brc_clock_s, &out->copies[k]));
+        if (k > 0)
+            out->fractions[k - 1] = floor_bytes / out->seconds[k - 1] / (0.5 * (out->copies[k - 1] + out->copies[k]));
+        if (k == SAMPLES) break;
+        BRC_TRY(time_steps(simulation, out->n_steps, &out->seconds[k]));
+        out->seconds[k] /= (double)out->n_steps;
+    }
+    qsort(out->seconds, SAMPLES, sizeof *out->seconds, ascending);
+    qsort(out->copies, SAMPLES + 1, sizeof *out->copies, ascending);
+    qsort(out->fractions, SAMPLES, sizeof *out->fractions, ascending);
+    return BRC_OK;
+}
+
+static void add_figures(brc_rows *rows, const brc_domain *domain, const brc_simulation *simulation,
+                        int64_t device_bytes, const sampling *s)
+{
+    const double per_step = s->seconds[SAMPLES / 2], floor_bytes = brc_simulation_floor_bytes(simulation);
     const double bonds = (double)domain->n_bonds, elements = (double)domain->n_elements;
     brc_rows_number(rows, "ours", bonds / per_step);
     brc_rows_number(rows, "seconds", per_step);
     brc_rows_integer(rows, "elements", domain->n_elements);
     brc_rows_integer(rows, "bonds", domain->n_bonds);
     brc_rows_number(rows, "bond_updates_per_s", bonds / per_step);
-    brc_rows_number(rows, "bond_updates_per_s_min", bonds / samples[SAMPLES - 1]);
-    brc_rows_number(rows, "bond_updates_per_s_max", bonds / samples[0]);
+    brc_rows_number(rows, "bond_updates_per_s_min", bonds / s->seconds[SAMPLES - 1]);
+    brc_rows_number(rows, "bond_updates_per_s_max", bonds / s->seconds[0]);
     brc_rows_number(rows, "element_updates_per_s", elements / per_step);
-    brc_rows_integer(rows, "steps_per_sample", n_steps);
+    brc_rows_integer(rows, "steps_per_sample", s->n_steps);
     brc_rows_integer(rows, "samples", SAMPLES);
     brc_rows_number(rows, "floor_bytes_per_step", floor_bytes);
     brc_rows_number(rows, "floor_bytes_per_bond", floor_bytes / bonds);
-    brc_rows_number(rows, "copy_bandwidth", bandwidth);
-    brc_rows_number(rows, "bandwidth_fraction", floor_bytes / per_step / bandwidth);
+    brc_rows_number(rows, "copy_bandwidth", 0.5 * (s->copies[SAMPLES / 2] + s->copies[SAMPLES / 2 + 1]));
+    brc_rows_number(rows, "copy_bandwidth_min", s->copies[0]);
+    brc_rows_number(rows, "copy_bandwidth_max", s->copies[SAMPLES]);
+    brc_rows_number(rows, "bandwidth_fraction", s->fractions[SAMPLES / 2]);
+    brc_rows_number(rows, "bandwidth_fraction_min", s->fractions[0]);
+    brc_rows_number(rows, "bandwidth_fraction_max", s->fractions[SAMPLES - 1]);
     brc_rows_number(rows, "device_bytes_per_element", (double)device_bytes / elements);
 }
 
@@ -85,18 +112,16 @@ static brc_status measure(brc_context *context, const brc_throughput_request *re
     brc_cube_make(&c, model);
     const brc_device_request open = {
         .selector = selector, .precision = precision, .n_threads = n_threads, .exact = request->exact};
-    double bandwidth, samples[SAMPLES];
-    int64_t n_steps;
+    sampling s;
     BRC_TRY_OR(cleanup, brc_device_open(context, &open, &device));
     const brc_device_info *info = brc_device_get_info(device);
     brc_rows_text(rows, "device_name", info->name);
     brc_rows_text(rows, "driver", info->driver);
     brc_rows_integer(rows, "lanes", brc_device_lanes(device));
-    BRC_TRY_OR(cleanup, brc_device_copy_bandwidth(device, request->bandwidth_bytes, brc_clock_s, &bandwidth));
     BRC_TRY_OR(cleanup, brc_simulation_create(context, &c.scene, domain, device, &simulation));
     const int64_t device_bytes = brc_device_bytes(device);
-    BRC_TRY_OR(cleanup, sample_steps(simulation, request->sample_s, samples, &n_steps));
-    add_figures(rows, domain, simulation, device_bytes, bandwidth, samples, n_steps);
+    BRC_TRY_OR(cleanup, sample(request, device, simulation, &s));
+    add_figures(rows, domain, simulation, device_bytes, &s);
 cleanup:
     brc_simulation_free(&simulation);
     brc_device_close(&device);
