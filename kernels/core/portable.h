@@ -254,12 +254,20 @@ LAW lane brc_lane_where(lane_mask which, lane a, lane b)
 {
     return (lane)((which & (lane_mask)a) | (~which & (lane_mask)b));
 }
+#if !defined(BRC_TARGET) && defined(__AVX2__) && W == 4 && BRC_PRECISION == 0
+#include <immintrin.h>
+LAW int brc_lane_some(lane_mask which) { return _mm256_movemask_pd((__m256d)which); }
+#elif !defined(BRC_TARGET) && defined(__AVX2__) && W == 8 && BRC_PRECISION != 0
+#include <immintrin.h>
+LAW int brc_lane_some(lane_mask which) { return _mm256_movemask_ps((__m256)which); }
+#else
 LAW int brc_lane_some(lane_mask which)
 {
     int some = 0;
     for (int l = 0; l < W; ++l) some |= which[l] != 0;
     return some;
 }
+#endif
 #define LANE_LESS(a, b) ((a) < (b))
 #define LANE_WHERE(which, a, b) brc_lane_where((which), (a), (b))
 #define LANE_SOME(which) brc_lane_some(which)

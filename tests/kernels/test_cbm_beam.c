@@ -170,6 +170,25 @@ static void a_missing_neighbour_does_nothing(void **state)
     assert_true(cbm_beam_energy(shape, 0, STIFF) == 0);
 }
 
+/* Fitted near no stretch, by root and quotient beyond: a few roundings off the exact one at either side of the limit,
+ * for the smallest stretch too. */
+static void the_shortening_keeps_its_digits_at_any_stretch(void **state)
+{
+    (void)state;
+    double most = 0;
+    for (int k = -400; k <= 300; ++k)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const double x = sign * (k < 0 ? pow(10, k / 25.) : 0.9 * pow(2, -k / 20.)); /* dense about 2^-7 */
+            const long double square = 1 + (long double)x, exact = x / (sqrtl(square) + square);
+            most = fmax(most, fabs((double)((cbm_shortened(x) - exact) / exact)));
+        }
+    assert_true(most < 4 * 0x1p-53);
+    const double limit = 0x1p-7; /* the two sides of the limit join within their roundings */
+    assert_true(fabs(cbm_shortened(limit) - cbm_shortened(limit * (1 - 0x1p-53))) < 8 * 0x1p-53 * limit);
+    assert_true(cbm_shortened(0) == 0);
+    assert_true(isnan(cbm_shortened(NAN)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -179,6 +198,7 @@ int main(void)
         cmocka_unit_test(the_linear_law_is_the_slope_of_the_full_one_at_rest),
         cmocka_unit_test(a_single_beam_is_that_of_euler_and_bernoulli),
         cmocka_unit_test(a_missing_neighbour_does_nothing),
+        cmocka_unit_test(the_shortening_keeps_its_digits_at_any_stretch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
