@@ -38,24 +38,18 @@ LAW lane cbm_elongation(cbm_shape s) { return s.strain * s.length0; }      /* l 
 LAW lane cbm_length(cbm_shape s) { return s.length0 + cbm_elongation(s); } /* l, 0 for a missing neighbour [m] */
 
 /* 1 - l0 / l of a beam whose (l / l0)^2 is 1 + x. A root and a quotient take as long as an eighth of the law, so where
- * |x| < 2^-7 (strains below 0.39 %) it is x times the Chebyshev fit of (1 - (1 + x)^-1/2) / x, which is 2^-56 of it off
- * in double and 2^-28 in single precision. */
+ * |x| < 2^-7 (strains below 0.39 %) it is x times the Chebyshev fit of (1 - (1 + x)^-1/2) / x, which is 2^-56 of it
+ * off; single precision takes half of it, 2^-29 off. */
 LAW lane cbm_shortened(lane x)
 {
-    const lane limit = LANE_ZERO + REAL(0.0078125), xx = x * x;
-    const lane_mask near = LANE_LESS(-limit, x) & LANE_LESS(x, limit);
-#if BRC_PRECISION == 0
+    const lane xx = x * x;
     const lane low = (REAL(0.5) - REAL(0.37500000000000488426) * x) +
                      xx * (REAL(0.31250000000000461291) - REAL(0.27343749935981508153) * x),
                high = (REAL(0.24609374939538033488) - REAL(0.22560691464861752284) * x) +
                       xx * REAL(0.20949246801597707261);
-    const lane fitted = x * (low + xx * xx * high);
-#else
-    const lane fitted = x * ((REAL(0.49999999988539771372) - REAL(0.3749999998949477802) * x) +
-                             xx * (REAL(0.31251502105331817563) - REAL(0.27345126931310111424) * x));
-#endif
+    const lane fitted = x * (BRC_PRECISION == 0 ? low + xx * xx * high : low), square = REAL(1) + x;
+    const lane_mask near = LANE_LESS(xx, LANE_ZERO + REAL(0x1p-14));
     if (!LANE_SOME(~near & LANE_ALL)) return fitted;
-    const lane square = REAL(1) + x;
     return LANE_WHERE(near, fitted, x / (LANE_SQRT(square) + square));
 }
 
@@ -67,20 +61,21 @@ LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec
 {
     cbm_shape s;
     const lane_vec3 e = lane_vec3_scale(inv_length0, branch), turned = lane_mat3_mul_vec(turn_i, e); /* X1 - e */
+    lane shortened;                                                                                  /* 1 - l0 / l */
     if (finite) {
-        const lane_vec3 moved = lane_vec3_scale(inv_length0, jump), now = lane_vec3_add(e, moved); /* l / l0 n */
-        const lane square = lane_vec3_dot(moved, lane_vec3_add(now, e));                           /* (l / l0)^2 - 1 */
-        const lane shortened = cbm_shortened(square), part = shortened - shortened * shortened;
+        const lane_vec3 ends = lane_vec3_more(jump, LANE_ZERO + REAL(2), branch);
+        const lane square = inv_length0 * inv_length0 * lane_vec3_dot(jump, ends); /* (l / l0)^2 - 1 */
+        shortened = cbm_shortened(square);
+        const lane part = shortened - shortened * shortened;
         s.strain = part + square * part; /* l / l0 = (1 + square) (1 - shortened) */
         s.inv_length = inv_length0 - inv_length0 * shortened;
-        /* n - e = now - e - shortened now */
-        s.bent1 = lane_vec3_more(lane_vec3_sub(moved, turned), -shortened, now);
     } else {
-        s.strain = inv_length0 * lane_vec3_dot(e, jump);
+        s.strain = shortened = inv_length0 * lane_vec3_dot(e, jump);
         s.inv_length = inv_length0;
-        s.bent1 = lane_vec3_sub(lane_vec3_scale(inv_length0, jump), lane_vec3_more(turned, s.strain, e));
     }
     s.length0 = lane_vec3_dot(branch, e);
+    /* n - e = jump / l - (1 - l0 / l) e */
+    s.bent1 = lane_vec3_sub(lane_vec3_scale(s.inv_length, jump), lane_vec3_more(turned, shortened, e));
     s.own = finite ? lane_vec3_add(e, turned) : e;
     s.axis = finite ? lane_vec3_add(s.own, s.bent1) : e;
     /* the relative rotation w, V in the global frame: tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V x X1 + V x (V x
