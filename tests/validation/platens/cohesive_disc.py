@@ -205,7 +205,7 @@ def granite():
                         half = width_of(load, diameter / 2, jaw, stiff)
                         load = pi * diameter / 2 * strength / across(hertz(asin(half / (diameter / 2))), 0)
                     print("centre %-6s %-5s brittle %.1f N, half width %.3f mm" % (name, "steel" if steel else "rigid", load * thick, half * 1e3))
-                for energy in (6.4, 20, 50, 100):
+                for energy in (20, 50, 100) if jaw else (6.4, 20, 50, 100):
                     load, half, c, w = pressed(diameter, young, nu, strength, energy, jaw, stiff, plane == "strain")
                     nominal = 2 * load / (pi * diameter * strength)
                     print("%-6s %-6s %-5s G %-4g %.1f N, half width %.3f mm, nominal %.4f, c/R %.2f, w/w_c %.3f" % (plane, name, "steel" if steel else "rigid", energy, load * thick, half * 1e3, nominal, c, w))
