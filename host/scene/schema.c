@@ -8,7 +8,8 @@ static const brc_entry GUARD[] = {
      .sample = "1000", .meaning = "steps between looks at the energy ledger and at every element"},
     {"closure", BRC_TYPE_QUANTITY, "", POSITIVE, FIELD(brc_guard, closure), .given = "off", .word = "off",
      .sample = "5 %",
-     .meaning = "largest error of the energy ledger; off: only a run that runs away or is not finite is stopped"},
+     .meaning = "largest error of the energy ledger; off: only runs that run away, gain by losses or are not finite "
+                "stop"},
 };
 static const brc_section GUARD_SECTION = {
     .title = "guard", .meaning = "Stops a run that goes wrong, and says where.", ENTRIES(GUARD)};
