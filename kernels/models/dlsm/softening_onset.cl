@@ -95,12 +95,85 @@ LAW soft_whole soft_whole_at(soft_faces f, coeff k_one, coeff ell_one, coeff bet
                         soft_first(soft_mean_stress(own, beside))};
 }
 
+/* The present stress of a cell, sym(P F^T) [Pa], added to a sum. */
+LAW failure_stress soft_add_stress(failure_stress sum, GLOBAL const coeff *h, GLOBAL const coeff *p)
+{
+    const coeff xy = p[0] * h[3] + p[1] * h[4] + p[2] * h[5] + p[3] * h[0] + p[4] * h[1] + p[5] * h[2],
+                xz = p[0] * h[6] + p[1] * h[7] + p[2] * h[8] + p[6] * h[0] + p[7] * h[1] + p[8] * h[2],
+                yz = p[3] * h[6] + p[4] * h[7] + p[5] * h[8] + p[6] * h[3] + p[7] * h[4] + p[8] * h[5];
+    return (failure_stress){sum.xx + p[0] + p[0] * h[0] + p[1] * h[1] + p[2] * h[2],
+                            sum.yy + p[4] + p[3] * h[3] + p[4] * h[4] + p[5] * h[5],
+                            sum.zz + p[8] + p[6] * h[6] + p[7] * h[7] + p[8] * h[8],
+                            sum.yz + REAL(0.5) * (p[5] + p[7] + yz),
+                            sum.xz + REAL(0.5) * (p[2] + p[6] + xz),
+                            sum.xy + REAL(0.5) * (p[1] + p[3] + xy)};
+}
+/* The sum and the stresses of an element's neighbours (what points home has no face). */
+LAW failure_stress soft_add_around(failure_stress sum, int e, OWN(int) row_start, OWN(int) neighbour,
+                                   GATHER(coeff) gradient, GATHER(coeff) stress)
+{
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const int j = neighbour[SOFT_ENTRY];
+        if (j != e) sum = soft_add_stress(sum, gradient + (brc_size)j * 9, stress + (brc_size)j * 9);
+    }
+    return sum;
+}
+
+/* Components of a unit vector along the three principal axes. */
+typedef struct {
+    coeff first, second, third;
+} soft_cosines;
+LAW soft_cosines soft_cosines_of(failure_principal at, soft_vector a)
+{
+    return (soft_cosines){a.x * at.first_axis.x + a.y * at.first_axis.y + a.z * at.first_axis.z,
+                          a.x * at.second_axis.x + a.y * at.second_axis.y + a.z * at.second_axis.z,
+                          a.x * at.third_axis.x + a.y * at.third_axis.y + a.z * at.third_axis.z};
+}
+/* Pull along an axis on the projection of a face across it [Pa]: in an even stress, and its axis, the largest principal
+ * value, and more where the stress at the face leans from the axis towards the normal. Pushes count for nothing, as
+ * they go on along a crack; nor do faces more than 45 degrees off, on which a slide along the crack counts for more
+ * than a pull across it. at: stress at the face. */
+#define SOFT_LEANS REAL(0.7071067811865476)
+LAW coeff soft_pull_along(failure_principal at, soft_vector normal, soft_vector axis)
+{
+    const soft_cosines n = soft_cosines_of(at, normal), a = soft_cosines_of(at, axis);
+    const coeff pull = failure_larger(at.first, 0) * n.first * a.first +
+                       failure_larger(at.second, 0) * n.second * a.second +
+                       failure_larger(at.third, 0) * n.third * a.third;
+    const coeff c = soft_dot(normal, axis);
+    return SOFT_ABS(c) < SOFT_LEANS ? REAL(0) : pull / c;
+}
+/* Of the largest principal value that is at most 1 / this, (1 + c) / (2 c) at the least cosine c. */
+#define SOFT_DRAWN_LEAST REAL(0.828427)
+/* Square of what the pushes at a face lay on the plane across an axis [Pa^2]. */
+LAW coeff soft_pushed(failure_principal at, soft_vector axis)
+{
+    const soft_cosines a = soft_cosines_of(at, axis);
+    const coeff one = failure_larger(-at.first, 0) * a.first, two = failure_larger(-at.second, 0) * a.second,
+                three = failure_larger(-at.third, 0) * a.third;
+    return one * one + two * two + three * three;
+}
+#define SOFT_PUSHED_MOST REAL(0.1) /* of the limit */
+/* What draws a face open that bears `most` [Pa], as a piece of a crack that is wider than it: along the axis of the
+ * stress around, `wide`. 0 for bonds that bridge a crack, between cells without stress (mean), and where that axis
+ * would have what presses let go, as next to a platen. */
+LAW coeff soft_drawn(failure_stress wide, failure_stress mean, failure_principal at, soft_vector normal, coeff most)
+{
+    if (failure_all_below(mean, REAL(1), REAL(0.5) * most)) return 0;
+    const failure_axis first = failure_principal_of(wide).first_axis;
+    const soft_vector axis = {first.x, first.y, first.z};
+    return soft_pushed(at, axis) > SOFT_PUSHED_MOST * SOFT_PUSHED_MOST * most * most
+               ? REAL(0)
+               : soft_pull_along(at, normal, axis);
+}
+
 /* The bond of one entry of an element, which may have a stress above its limit: 1 where it is marked. */
-LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int shears, coeff slope, OWN(int) neighbour,
-                        GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta,
-                        coeff one_plus_tau, GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient,
-                        GATHER(coeff) stress, GATHER(coeff) flux, GATHER(coeff) bond_part, OWN(coeff) limit,
-                        OWN(coeff) shear_limit, PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack)
+LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int shears, coeff slope, OWN(int) row_start,
+                        OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio, coeff k_one,
+                        coeff ell_one, coeff beta, coeff one_plus_tau, GATHER(coeff) modulus,
+                        GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) flux,
+                        GATHER(coeff) bond_part, OWN(coeff) limit, OWN(coeff) shear_limit, PUT(int) mark,
+                        PUT(coeff) measure, PUT(coeff) crack)
 {
     if (!(limit[entry] < CELLS_NEVER)) return 0;
     const int both = n_open[e] && n_open[neighbour[entry]];
@@ -111,13 +184,17 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
     const failure_stress whole = soft_stress(now.mean, traction, normal);
     const coeff edge = both ? soft_edge(now.uneven, now.apart, force, normal, s, ratio[entry]) : REAL(0);
-    if (!soft_possible(whole, edge, share * limit[entry], shears ? share * shear_limit[entry] : REAL(0), slope))
+    if (!soft_possible(whole, edge, SOFT_DRAWN_LEAST * share * limit[entry],
+                       shears ? share * shear_limit[entry] : REAL(0), slope))
         return 0;
     const failure_principal largest = failure_principal_of(whole);
     const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
     const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
-    const int bends = edge > largest.first;
-    const coeff worst = bends ? edge : largest.first;
+    const failure_stress wide = soft_add_around(now.mean, e, row_start, neighbour, gradient, stress);
+    const coeff first =
+        failure_larger(largest.first, soft_drawn(wide, now.mean, largest, normal, share * limit[entry]));
+    const int bends = edge > first;
+    const coeff worst = bends ? edge : first;
     if (shears) {
         const failure_state slip = soft_slip(largest, traction, normal, share * shear_limit[entry], slope);
         const soft_vector plane = soft_slip_plane(slip, normal);
@@ -142,10 +219,10 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     return 1;
 }
 
-/* Whole bonds whose largest principal stress is above share * limit and that stand across it (the cosine of normal and
- * axis is at least steepest) are marked SOFT_WISH, measure: that stress. Elements without open faces whose own stress
- * is well below the limit of their weakest bond do not look (soft_looking); shear_least: norm below which no face
- * slides [Pa]. found [n]. */
+/* Whole bonds whose largest principal stress, or what draws them open, is above share * limit and that stand across it
+ * (the cosine of normal and axis is at least steepest) are marked SOFT_WISH, measure: that stress. Elements without
+ * open faces whose own stress is well below the limit of their weakest bond do not look (soft_looking); shear_least:
+ * norm below which no face slides [Pa]. found [n]. */
 KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, int shears, coeff slope,
                        coeff shear_least, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, GATHER(int) n_open,
                        OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
@@ -170,7 +247,7 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
             const dlsm_pull pull = dlsm_pull_at(dlsm_row_at(who, slot, neighbour, area, ratio, DLSM_RATIO), end,
                                                 displacement, flux, bond_part, one_plus_tau, modulus);
             const lane_mat3 beside = lane_gather9(gradient, j);
-            const soft_bounds below = {share * members_row1(who, limit, slot),
+            const soft_bounds below = {SOFT_DRAWN_LEAST * share * members_row1(who, limit, slot),
                                        shears ? share * soft_half_of(members_row1(who, shear_limit, slot)) : LANE_ZERO,
                                        shears ? REAL(1.4143) * (REAL(1) + slope) : REAL(0), steepest};
             int near = soft_near(lane_mat3_add(h, beside),
@@ -186,9 +263,9 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
             for (int l = 0; near >> l; ++l)
                 if (near >> l & 1)
                     count[l] += soft_check_bond(who.first + l, (brc_size)slot * C + (brc_size)(who.lane0 + l), share,
-                                                steepest, shears, slope, neighbour, n_open, area, ratio, k_one, ell_one,
-                                                beta, one_plus_tau, modulus, displacement, gradient, stress, flux,
-                                                bond_part, limit, shear_limit, mark, measure, crack);
+                                                steepest, shears, slope, row_start, neighbour, n_open, area, ratio,
+                                                k_one, ell_one, beta, one_plus_tau, modulus, displacement, gradient,
+                                                stress, flux, bond_part, limit, shear_limit, mark, measure, crack);
         }
         for (int l = 0; l < W; ++l) found[who.first + l] = (state)count[l];
     }

@@ -137,7 +137,7 @@ static void tell_crack(brc_simulation *s, const brc_body *body, const brc_crack 
     if (length < (1 - slack) * least_notch * x->size)
         brc_log(s->context, BRC_LOG_WARNING,
                 "fracture_energy: crack '%s' of body '%s' is about %.1f %s long and leaves %.1f: notched parts of "
-                "uneven cells bear some 6 to 12 %% too much with %g along it, 4 %% with %g; use %s of "
+                "uneven cells bear some 5 to 11 %% too much with %g along it, 4 %% with %g; use %s of "
                 "%.3g mm for %g, %.3g mm for %g",
                 crack->name, body->name, length / x->size, elements, left / x->size, least_notch, good_notch, elements,
                 1e3 * length / least_notch, least_notch, 1e3 * length / good_notch, good_notch);

@@ -134,7 +134,7 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
         brc_log(s->context, BRC_LOG_INFO,
                 "fracture_energy: E G_c / sigma_f^2 is less than %g cells at %lld of %lld bonds: a crack costs G_c per "
                 "area, but a part with a notch, of cells that are not regular, "
-                "bears some 6 to 12 %% too much; use cells of %.3g mm where that matters (they are of %.3g mm)",
+                "bears some 5 to 11 %% too much; use cells of %.3g mm where that matters (they are of %.3g mm)",
                 2 * least_cells, (long long)l.n_below[1], (long long)l.n,
                 1e3 * brc_crack_lengths_size(&l, 2 * least_cells), 1e3 * l.size);
     brc_crack_lengths_free(&l);

@@ -72,7 +72,7 @@ static void thin_bodies_and_short_cracks_are_warned_of_with_the_size_wanted(void
     const char *said = heard();
     expect(said,
            "crack 'notch' of body 'body' is about 4.0 cells long and leaves 4.0: notched parts of uneven cells bear "
-           "some 6 to 12 % too much with 15 along it, 4 % with 30; use cells of 33.3 mm for 15, 16.7 mm for 30");
+           "some 5 to 11 % too much with 15 along it, 4 % with 30; use cells of 33.3 mm for 15, 16.7 mm for 30");
     assert_null(strstr(said, "whole, expected"));
     brc_simulation_free(&c.simulation);
     crack.edge[0][0] = 0.85;
