@@ -27,6 +27,11 @@ LAW lane_vec3 lane_vec3_more(lane_vec3 a, lane k, lane_vec3 b)
 {
     return (lane_vec3){a.x + k * b.x, a.y + k * b.y, a.z + k * b.z};
 }
+/* a - k b */
+LAW lane_vec3 lane_vec3_less(lane_vec3 a, lane k, lane_vec3 b)
+{
+    return (lane_vec3){a.x - k * b.x, a.y - k * b.y, a.z - k * b.z};
+}
 LAW lane lane_vec3_dot(lane_vec3 a, lane_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 LAW lane_vec3 lane_vec3_cross(lane_vec3 a, lane_vec3 b)
 {

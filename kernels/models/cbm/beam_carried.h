@@ -56,7 +56,7 @@ LAW beam_axes beam_axes_of(cbm_shape shape, lane_vec3 axis0, lane_quat q_i, lane
         lane_vec3_add(shape.bent1, quat_rotate_minus_identity(quat_conjugate(q_i), shape.bent1, 1));
     const lane_vec3 back_j =
         lane_vec3_add(shape.bent2, quat_rotate_minus_identity(quat_conjugate(q_j), shape.bent2, 1));
-    const lane_vec3 across = lane_vec3_scale(REAL(0.5) * cbm_length(shape), lane_vec3_add(back_i, back_j)),
+    const lane_vec3 across = lane_vec3_scale(REAL(0.5) + REAL(0.5) * cbm_strain(shape), lane_vec3_add(back_i, back_j)),
                     second = lane_vec3_cross(axis0, lean.side);
     return (beam_axes){{c, s * lean.cosine, s * lane_max(sine, -sine)},
                        {s, -c * lean.cosine, -c * lane_max(sine, -sine)},
@@ -88,7 +88,8 @@ LAW beam_axis beam_axis_of(lane c, lane o, lane k_m, lane more, lane y, lane per
 LAW beam_carry beam_pressed(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness)
 {
     const lane zero = LANE_ZERO, k = stiffness.axial * inv_length0, y = lane_min(cbm_elongation(shape), zero);
-    return (beam_carry){{lane_vec3_scale(k * y, shape.axis), {zero, zero, zero}}, REAL(0.5) * (k * y * y)};
+    return (beam_carry){{lane_vec3_scale(k * y * inv_length0, cbm_axis(shape)), {zero, zero, zero}},
+                        REAL(0.5) * (k * y * y)};
 }
 
 /* branch: x_j - x_i now [m], axis0: e; q_i, q_j: orientations of the elements. */
@@ -118,7 +119,8 @@ LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness sti
     const lane_vec3 own = lane_vec3_add(across, quat_rotate_minus_identity(q_i, across, 1)),
                     theirs = lane_vec3_add(across, quat_rotate_minus_identity(q_j, across, 1));
     return (beam_carry){
-        {lane_vec3_add(lane_vec3_scale(k * y, shape.axis), lane_vec3_add(own, theirs)), lane_vec3_cross(branch, own)},
+        {lane_vec3_add(lane_vec3_scale(k * y * inv_length0, cbm_axis(shape)), lane_vec3_add(own, theirs)),
+         lane_vec3_cross(branch, own)},
         REAL(0.5) * energy};
 }
 
@@ -140,8 +142,8 @@ LAW lane beam_pull(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, l
 /* The opening l n - l0 (X1 + X2) / 2 of a beam's ends, which no rotation of the body changes [m]. */
 LAW lane_vec3 beam_opening(cbm_shape shape)
 {
-    return lane_vec3_add(lane_vec3_scale(cbm_elongation(shape), shape.axis),
-                         lane_vec3_scale(REAL(0.5) * shape.length0, lane_vec3_add(shape.bent1, shape.bent2)));
+    return lane_vec3_add(lane_vec3_scale(shape.shortened, shape.branch),
+                         lane_vec3_scale(LANE_ZERO + REAL(0.5), lane_vec3_add(shape.bent1, shape.bent2)));
 }
 
 /* keeps of a crack that has come to this opening: none where its ends stand clear of each other, at `clear` of the

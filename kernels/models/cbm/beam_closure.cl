@@ -66,7 +66,7 @@ LAW closure_bond closure_bond_at(int slot, int lane0, cbm_own own, OWN(int) othe
     b.inv_length0 = b.bears / LANE_SQRT(lane_vec3_dot(r, r));
     b.stiffness = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
     b.q_j = lane_gather4(orientation, j);
-    b.shape = cbm_beam_shape_turned(r, b.inv_length0, jump, own.orientation, own.turn, b.q_j, 1);
+    b.shape = cbm_beam_shape_turned(r, b.inv_length0, jump, own.back, own.turn, b.q_j, 1);
     b.branch = lane_vec3_add(r, jump);
     b.axis0 = lane_vec3_scale(b.inv_length0, r);
     b.lean = (beam_lean){{zero, zero, zero}, zero + REAL(1), zero, zero, zero};
@@ -207,7 +207,7 @@ LAW int closure_move_group(int group, coeff clear, OWN(int) row_start, OWN(int) 
         if (!closure_any(rubs[group], slot - row_start[slice], bears, entry)) continue;
         closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial, bend,
                                          twist, beam_of, leans, lean);
-        const lane apart = b.shape.strain - clear;
+        const lane apart = cbm_strain(b.shape) - clear;
         if (leans) {
             const beam_carry before = closure_carry(b, own, leans);
             b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);

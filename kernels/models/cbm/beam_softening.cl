@@ -75,7 +75,7 @@ LAW beam_part beam_part_of(cbm_bond bond, lane_vec3 axis0, cbm_own own, lane_qua
 LAW lane beam_cosine(cbm_bond bond)
 {
     const lane_vec3 opening = beam_opening(bond.shape);
-    const lane along = lane_vec3_dot(opening, bond.shape.axis);
+    const lane along = lane_vec3_dot(opening, cbm_axis(bond.shape)) * bond.inv_length0;
     return LANE_SQRT(along * along /
                      (lane_vec3_dot(opening, opening) + REAL(1e-30) * bond.shape.length0 * bond.shape.length0));
 }

@@ -21,6 +21,7 @@ typedef struct {
     lane_int row;
     state_vec3 displacement; /* u [m] */
     lane_quat orientation;
+    lane_quat back; /* cbm_back */
     lane_mat3 turn; /* its rotation minus identity [-] */
 } cbm_own;
 
@@ -28,7 +29,7 @@ LAW cbm_own cbm_own_of(int group, OWN(state) displacement, OWN(state) orientatio
 {
     const lane_int row = lane_own(group * W);
     const lane_quat q = lane_gather4(orientation, row);
-    return (cbm_own){row, state_gather3(displacement, row), q, quat_matrix_minus_identity(q, finite)};
+    return (cbm_own){row, state_gather3(displacement, row), q, cbm_back(q), quat_matrix_minus_identity(q, finite)};
 }
 
 /* What a group asks for ahead. */
@@ -67,8 +68,8 @@ LAW cbm_bond cbm_bond_of(cbm_row row, cbm_own own, GATHER(state) displacement, G
     const lane_int j = row.j;
     const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), own.displacement);
     const cbm_stiffness k = cbm_stiffness_of(beam_of, own.row, j, axial, bend, twist);
-    const cbm_shape shape = cbm_beam_shape_turned(row.branch, row.inverse, jump, own.orientation, own.turn,
-                                                  lane_gather4(orientation, j), finite);
+    const cbm_shape shape =
+        cbm_beam_shape_turned(row.branch, row.inverse, jump, own.back, own.turn, lane_gather4(orientation, j), finite);
     return (cbm_bond){shape, row.inverse, k, lane_vec3_add(row.branch, jump)};
 }
 

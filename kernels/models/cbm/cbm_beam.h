@@ -22,20 +22,28 @@ typedef struct {
 /* Two half beams in series. */
 LAW lane cbm_in_series(lane a, lane b) { return REAL(2) * a * b / (a + b); }
 
-/* What the law is made of. */
+/* What the law is made of. Vectors are times l0, so that no axis need be made of length one; twist and its axis are
+ * parted by sqrt(2), so that V is never doubled. */
 typedef struct {
-    lane_vec3 axis;         /* n [-] */
-    lane_vec3 own;          /* X1 [-] */
-    lane_vec3 bent1, bent2; /* d1, d2 [-] */
-    lane strain;            /* l / l0 - 1 [-] */
+    lane_vec3 branch;       /* l n, where not finite l0 e [m] */
+    lane_vec3 own;          /* l0 X1 [m] */
+    lane_vec3 bent1, bent2; /* l0 d1, l0 d2 [m] */
+    lane stretched;         /* (l / l0)^2 - 1 [-] */
+    lane shortened;         /* 1 - l0 / l [-] */
     lane length0;           /* l0, 0 for a missing neighbour [m] */
-    lane inv_length;        /* 1 / l, 0 for a missing neighbour [1/m] */
-    lane twist;             /* tau [-] */
-    lane_vec3 twist_axis;   /* g [-] */
+    lane twist;             /* l0 tau / sqrt(2) [m] */
+    lane_vec3 twist_axis;   /* sqrt(2) l0 g [m] */
 } cbm_shape;
 
-LAW lane cbm_elongation(cbm_shape s) { return s.strain * s.length0; }      /* l - l0 [m] */
-LAW lane cbm_length(cbm_shape s) { return s.length0 + cbm_elongation(s); } /* l, 0 for a missing neighbour [m] */
+/* l / l0 - 1 = (1 + stretched) (1 - shortened) - 1 [-]. */
+LAW lane cbm_strain(cbm_shape s)
+{
+    const lane part = s.shortened - s.shortened * s.shortened;
+    return part + s.stretched * part;
+}
+LAW lane cbm_elongation(cbm_shape s) { return cbm_strain(s) * s.length0; } /* l - l0 [m] */
+/* l0 n [m] */
+LAW lane_vec3 cbm_axis(cbm_shape s) { return lane_vec3_less(s.branch, s.shortened, s.branch); }
 
 /* 1 - l0 / l of a beam whose (l / l0)^2 is 1 + x. A root and a quotient take as long as an eighth of the law, so where
  * |x| < 2^-7 (strains below 0.39 %) it is x times the Chebyshev fit of (1 - (1 + x)^-1/2) / x, which is 2^-56 of it
@@ -48,51 +56,55 @@ LAW lane cbm_shortened(lane x)
                high = (REAL(0.24609374939538033488) - REAL(0.22560691464861752284) * x) +
                       xx * REAL(0.20949246801597707261);
     const lane fitted = x * (BRC_PRECISION == 0 ? low + xx * xx * high : low), square = REAL(1) + x;
-    const lane_mask near = LANE_LESS(xx, LANE_ZERO + REAL(0x1p-14));
-    if (!LANE_SOME(~near & LANE_ALL)) return fitted;
-    return LANE_WHERE(near, fitted, x / (LANE_SQRT(square) + square));
+    const lane_mask far = LANE_LESS(LANE_ZERO + REAL(0x1p-14), xx);
+    if (!LANE_SOME(far)) return fitted;
+    return LANE_WHERE(far, x / (LANE_SQRT(square) + square), fitted);
+}
+
+/* sqrt(2) times the inverse of q_i, or of q_i - 1 for small rotations [-]. */
+LAW lane_quat cbm_back(lane_quat q_i)
+{
+    const lane root = LANE_ZERO + REAL(1.41421356237309504880);
+    return (lane_quat){root * q_i.w, -(root * q_i.x), -(root * q_i.y), -(root * q_i.z)};
 }
 
 /* branch: X_j - X_i, jump: u_j - u_i [m]; inv_length0: 1/|branch|, 0 for a missing neighbour, which then feels nothing
- * [1/m]. */
-/* turn_i: R_i - I of q_i, the same for all beams of an element. */
-LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_mat3 turn_i,
-                                    lane_quat q_j, int finite)
+ * [1/m]. back: cbm_back of q_i, turn_i: R_i - I, the same for all beams of an element. */
+LAW cbm_shape cbm_beam_shape_turned(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat back,
+                                    lane_mat3 turn_i, lane_quat q_j, int finite)
 {
     cbm_shape s;
-    const lane_vec3 e = lane_vec3_scale(inv_length0, branch), turned = lane_mat3_mul_vec(turn_i, e); /* X1 - e */
-    lane shortened;                                                                                  /* 1 - l0 / l */
+    const lane_vec3 now = lane_vec3_add(branch, jump),
+                    rest = lane_vec3_sub(jump, lane_mat3_mul_vec(turn_i, branch)); /* l n - l0 X1 */
+    const lane square = inv_length0 * inv_length0;
     if (finite) {
-        const lane_vec3 ends = lane_vec3_more(jump, LANE_ZERO + REAL(2), branch);
-        const lane square = inv_length0 * inv_length0 * lane_vec3_dot(jump, ends); /* (l / l0)^2 - 1 */
-        shortened = cbm_shortened(square);
-        const lane part = shortened - shortened * shortened;
-        s.strain = part + square * part; /* l / l0 = (1 + square) (1 - shortened) */
-        s.inv_length = inv_length0 - inv_length0 * shortened;
+        s.stretched = square * lane_vec3_dot(jump, lane_vec3_add(branch, now));
+        s.shortened = cbm_shortened(s.stretched);
     } else {
-        s.strain = shortened = inv_length0 * lane_vec3_dot(e, jump);
-        s.inv_length = inv_length0;
+        s.stretched = s.shortened = square * lane_vec3_dot(branch, jump);
     }
-    s.length0 = lane_vec3_dot(branch, e);
-    /* n - e = jump / l - (1 - l0 / l) e */
-    s.bent1 = lane_vec3_sub(lane_vec3_scale(s.inv_length, jump), lane_vec3_more(turned, shortened, e));
-    s.own = finite ? lane_vec3_add(e, turned) : e;
-    s.axis = finite ? lane_vec3_add(s.own, s.bent1) : e;
-    /* the relative rotation w, V in the global frame: tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V x X1 + V x (V x
-     * X1)) = 2 V x g */
-    const lane_quat turn = quat_mul(q_j, quat_conjugate(q_i));
-    const lane_vec3 v = finite ? quat_vector(turn) : lane_vec3_sub(quat_vector(q_j), quat_vector(q_i)),
-                    twice = lane_vec3_add(v, v);
-    s.twist = lane_vec3_dot(twice, s.own);
-    s.twist_axis = finite ? lane_vec3_add(lane_vec3_scale(turn.w, s.own), lane_vec3_cross(v, s.own)) : s.own;
-    s.bent2 = lane_vec3_less_cross(s.bent1, twice, s.twist_axis);
+    s.length0 = inv_length0 * lane_vec3_dot(branch, branch);
+    s.branch = finite ? now : branch;
+    s.own = finite ? lane_vec3_sub(now, rest) : branch;
+    s.bent1 = lane_vec3_less(rest, s.shortened, s.branch);
+    /* the relative rotation w, V in the global frame, times sqrt(2): tau = 2 V.X1, g = w X1 + V x X1, X2 - X1 = 2 (w V
+     * x X1 + V x (V x X1)) = 2 V x g */
+    const lane_quat turn = quat_mul(q_j, back);
+    const lane root = LANE_ZERO + REAL(1.41421356237309504880);
+    const lane_vec3 v =
+        finite ? quat_vector(turn) : lane_vec3_add(lane_vec3_scale(root, quat_vector(q_j)), quat_vector(back));
+    s.twist = lane_vec3_dot(v, s.own);
+    s.twist_axis = lane_vec3_scale(finite ? turn.w : root, s.own);
+    if (finite) s.twist_axis = lane_vec3_add(s.twist_axis, lane_vec3_cross(v, s.own));
+    s.bent2 = lane_vec3_less_cross(s.bent1, v, s.twist_axis);
     return s;
 }
 
 LAW cbm_shape cbm_beam_shape(lane_vec3 branch, lane inv_length0, lane_vec3 jump, lane_quat q_i, lane_quat q_j,
                              int finite)
 {
-    return cbm_beam_shape_turned(branch, inv_length0, jump, q_i, quat_matrix_minus_identity(q_i, finite), q_j, finite);
+    return cbm_beam_shape_turned(branch, inv_length0, jump, cbm_back(q_i), quat_matrix_minus_identity(q_i, finite), q_j,
+                                 finite);
 }
 
 /* What the beam does to element i. */
@@ -101,16 +113,17 @@ typedef struct {
     lane_vec3 torque; /* about its own centre [N m] */
 } cbm_end;
 
-/* sum and what one more beam does. */
+/* sum and what one more beam does. Its axial force along l n is ka (1 - l0 / l): strain over l. */
 LAW cbm_end cbm_beam_add(cbm_end sum, cbm_shape s, lane inv_length0, cbm_stiffness k, int finite)
 {
-    const lane bend = k.bend * inv_length0, twist = k.twist * inv_length0 * s.twist,
-               shear = REAL(3) * bend * s.inv_length;
+    const lane square = inv_length0 * inv_length0, cube = square * inv_length0;
+    const lane inv_length = finite ? inv_length0 - inv_length0 * s.shortened : inv_length0;
+    const lane bend = k.bend * cube, shear = REAL(3) * k.bend * square * inv_length, twist = k.twist * cube * s.twist;
     const lane_vec3 across = lane_vec3_add(s.bent1, s.bent2), lean = lane_vec3_add(s.bent1, across);
-    lane along = k.axial * s.strain;
-    if (finite) along -= shear * lane_vec3_dot(s.axis, across);
+    lane along = k.axial * inv_length0 * s.shortened;
+    if (finite) along -= shear * inv_length * inv_length * lane_vec3_dot(s.branch, across);
     return (cbm_end){
-        lane_vec3_more(lane_vec3_more(sum.force, shear, across), along, s.axis),
+        lane_vec3_more(lane_vec3_more(sum.force, shear, across), along, s.branch),
         lane_vec3_less_cross(lane_vec3_more(sum.torque, twist, s.twist_axis), lane_vec3_scale(bend, lean), s.own)};
 }
 
@@ -144,8 +157,8 @@ LAW lane cbm_beam_energy(cbm_shape s, lane inv_length0, cbm_stiffness k)
     const lane bent = REAL(1.5) * (lane_vec3_dot(s.bent1, s.bent1) + lane_vec3_dot(s.bent2, s.bent2)) -
                       REAL(0.5) * lane_vec3_dot(apart, apart);
     const lane elongation = cbm_elongation(s);
-    return inv_length0 *
-           (REAL(0.5) * (k.axial * elongation * elongation + k.twist * s.twist * s.twist) + k.bend * bent);
+    return inv_length0 * (REAL(0.5) * k.axial * elongation * elongation +
+                          inv_length0 * inv_length0 * (k.twist * s.twist * s.twist + k.bend * bent));
 }
 
 #endif

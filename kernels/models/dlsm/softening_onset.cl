@@ -95,28 +95,23 @@ LAW soft_whole soft_whole_at(soft_faces f, coeff k_one, coeff ell_one, coeff bet
                         soft_first(soft_mean_stress(own, beside))};
 }
 
-/* The present stress of a cell, sym(P F^T) [Pa], added to a sum. */
-LAW failure_stress soft_add_stress(failure_stress sum, GLOBAL const coeff *h, GLOBAL const coeff *p)
+LAW lane_mat3 soft_spread9(GLOBAL const coeff *p)
 {
-    const coeff xy = p[0] * h[3] + p[1] * h[4] + p[2] * h[5] + p[3] * h[0] + p[4] * h[1] + p[5] * h[2],
-                xz = p[0] * h[6] + p[1] * h[7] + p[2] * h[8] + p[6] * h[0] + p[7] * h[1] + p[8] * h[2],
-                yz = p[3] * h[6] + p[4] * h[7] + p[5] * h[8] + p[6] * h[3] + p[7] * h[4] + p[8] * h[5];
-    return (failure_stress){sum.xx + p[0] + p[0] * h[0] + p[1] * h[1] + p[2] * h[2],
-                            sum.yy + p[4] + p[3] * h[3] + p[4] * h[4] + p[5] * h[5],
-                            sum.zz + p[8] + p[6] * h[6] + p[7] * h[7] + p[8] * h[8],
-                            sum.yz + REAL(0.5) * (p[5] + p[7] + yz),
-                            sum.xz + REAL(0.5) * (p[2] + p[6] + xz),
-                            sum.xy + REAL(0.5) * (p[1] + p[3] + xy)};
+    return (lane_mat3){LANE_ZERO + p[0], LANE_ZERO + p[1], LANE_ZERO + p[2], LANE_ZERO + p[3], LANE_ZERO + p[4],
+                       LANE_ZERO + p[5], LANE_ZERO + p[6], LANE_ZERO + p[7], LANE_ZERO + p[8]};
 }
-/* The sum and the stresses of an element's neighbours (what points home has no face). */
+/* The sum and the present stresses of an element's neighbours [Pa] (what points home has no face). */
 LAW failure_stress soft_add_around(failure_stress sum, int e, OWN(int) row_start, OWN(int) neighbour,
                                    GATHER(coeff) gradient, GATHER(coeff) stress)
 {
+    lane_sym3 all = soft_spread(sum);
     for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
         const int j = neighbour[SOFT_ENTRY];
-        if (j != e) sum = soft_add_stress(sum, gradient + (brc_size)j * 9, stress + (brc_size)j * 9);
+        if (j != e)
+            all = lane_sym3_add(all, soft_present_stress(soft_spread9(gradient + (brc_size)j * 9),
+                                                         soft_spread9(stress + (brc_size)j * 9)));
     }
-    return sum;
+    return soft_first(all);
 }
 
 /* Components of a unit vector along the three principal axes. */
@@ -154,12 +149,12 @@ LAW coeff soft_pushed(failure_principal at, soft_vector axis)
     return one * one + two * two + three * three;
 }
 #define SOFT_PUSHED_MOST REAL(0.1) /* of the limit */
+/* A bond that bridges a crack, between cells without stress (mean); it bears `most` [Pa]. */
+LAW int soft_bridges(failure_stress mean, coeff most) { return failure_all_below(mean, REAL(1), REAL(0.5) * most); }
 /* What draws a face open that bears `most` [Pa], as a piece of a crack that is wider than it: along the axis of the
- * stress around, `wide`. 0 for bonds that bridge a crack, between cells without stress (mean), and where that axis
- * would have what presses let go, as next to a platen. */
-LAW coeff soft_drawn(failure_stress wide, failure_stress mean, failure_principal at, soft_vector normal, coeff most)
+ * stress around, `wide`. 0 where that axis would have what presses let go, as next to a platen. */
+LAW coeff soft_drawn(failure_stress wide, failure_principal at, soft_vector normal, coeff most)
 {
-    if (failure_all_below(mean, REAL(1), REAL(0.5) * most)) return 0;
     const failure_axis first = failure_principal_of(wide).first_axis;
     const soft_vector axis = {first.x, first.y, first.z};
     return soft_pushed(at, axis) > SOFT_PUSHED_MOST * SOFT_PUSHED_MOST * most * most
@@ -190,16 +185,19 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     const failure_principal largest = failure_principal_of(whole);
     const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
     const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
-    const failure_stress wide = soft_add_around(now.mean, e, row_start, neighbour, gradient, stress);
-    const coeff first =
-        failure_larger(largest.first, soft_drawn(wide, now.mean, largest, normal, share * limit[entry]));
+    const coeff most = share * limit[entry];
+    const coeff drawn =
+        soft_bridges(now.mean, most)
+            ? REAL(0)
+            : soft_drawn(soft_add_around(now.mean, e, row_start, neighbour, gradient, stress), largest, normal, most);
+    const coeff first = failure_larger(largest.first, drawn);
     const int bends = edge > first;
     const coeff worst = bends ? edge : first;
     if (shears) {
         const failure_state slip = soft_slip(largest, traction, normal, share * shear_limit[entry], slope);
         const soft_vector plane = soft_slip_plane(slip, normal);
         const coeff leans = soft_dot(plane, normal);
-        const int nearer = slip.ratio * share * limit[entry] >= worst || (!bends && size < steepest);
+        const int nearer = slip.ratio * most >= worst || (!bends && size < steepest);
         if (slip.ratio > REAL(1) && nearer && !(leans < steepest)) {
             mark[entry] = SOFT_WISH;
             measure[entry] = slip.stress;
@@ -209,7 +207,7 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
             return 1;
         }
     }
-    if (!(worst > share * limit[entry]) || (!bends && size < steepest)) return 0;
+    if (!(worst > most) || (!bends && size < steepest)) return 0;
     const int turned = size < steepest || largest.first < REAL(0.5) * worst;
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
