@@ -35,14 +35,14 @@ typedef struct {
     lane_vec3 twist_axis;   /* sqrt(2) l0 g [m] */
 } cbm_shape;
 
-/* l / l0 - 1 = (1 + stretched) (1 - shortened) - 1 [-]. */
+/* Of the finite law: l / l0 - 1 = (1 + stretched) (1 - shortened) - 1 [-]. */
 LAW lane cbm_strain(cbm_shape s)
 {
     const lane part = s.shortened - s.shortened * s.shortened;
     return part + s.stretched * part;
 }
 LAW lane cbm_elongation(cbm_shape s) { return cbm_strain(s) * s.length0; } /* l - l0 [m] */
-/* l0 n [m] */
+/* Of the finite law: l0 n [m]. */
 LAW lane_vec3 cbm_axis(cbm_shape s) { return lane_vec3_less(s.branch, s.shortened, s.branch); }
 
 /* 1 - l0 / l of a beam whose (l / l0)^2 is 1 + x. A root and a quotient take as long as an eighth of the law, so where
@@ -61,7 +61,7 @@ LAW lane cbm_shortened(lane x)
     return LANE_WHERE(far, x / (LANE_SQRT(square) + square), fitted);
 }
 
-/* sqrt(2) times the inverse of q_i, or of q_i - 1 for small rotations [-]. */
+/* sqrt(2) times the conjugate of q_i [-]. */
 LAW lane_quat cbm_back(lane_quat q_i)
 {
     const lane root = LANE_ZERO + REAL(1.41421356237309504880);
