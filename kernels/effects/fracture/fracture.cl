@@ -10,7 +10,9 @@
  * smallest limits of all, times record's volume [m^3] (failure_bound.h). weight [n]: volume of record over the element
  * and its neighbours [m^3]; limit_margin [n]: how much farther than the smallest its own limits are, times its weakest
  * factor, a little less [-]. While the sum of stress_bound over the members is below limit_margin times weight the
- * element cannot fail. factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element;
+ * element cannot fail. near [n / W]: the last step in which some member of an element of the group had by itself a
+ * bound of near_margin [n] or more, the smallest limit_margin of that member and its neighbours [-]: without one the
+ * mean is below it too. factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element;
  * only read if weighted. */
 
 #define RECORD 8
@@ -220,28 +222,45 @@ LAW failure_stress fracture_mean_of(int e, int level, GATHER(int) row_start, GAT
                             inverse * sum[3], inverse * sum[4], inverse * sum[5]};
 }
 
+/* Before the next pass, level 1: which groups it has to look at. */
+KERNEL void fracture_near(int n_groups, int step, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) record,
+                          OWN(coeff) stress_bound, OWN(coeff) near_margin, SCATTER(int) near)
+{
+    FOR_EACH_ITEM(group, n_groups) {
+        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
+        const lane reaches = lane_load(near_margin, (brc_size)first) * lane_block(record, slice, RECORD, 6, lane0);
+        if (LANE_SOME(~LANE_LESS(lane_load(stress_bound, (brc_size)first), reaches))) {
+            STORE_SAME(near + group, step);
+            for (int slot = row_start[slice]; slot < row_start[slice + 1]; ++slot)
+                for (int l = 0; l < W; ++l)
+                    STORE_SAME(near + neighbour[(brc_size)slot * C + (brc_size)(lane0 + l)] / W, step);
+        }
+    }
+}
+
 /* Levels 0 and 1: what each element loses. Only elements which the bound lets fail look at stresses: few of a group
- * do. */
-KERNEL void fracture_check(int n_groups, int level, int step, int drucker_prager, coeff slope, coeff friction,
-                           int weighted, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+ * do. screened: fracture_near has marked this step's groups, all others are passed by. */
+KERNEL void fracture_check(int n_groups, int level, int step, int screened, int drucker_prager, coeff slope,
+                           coeff friction, int weighted, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
                            GATHER(state) displacement, OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest,
                            GATHER(coeff) record, GATHER(coeff) stress_bound, OWN(coeff) limit_margin, OWN(coeff) weight,
-                           PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
+                           OWN(int) near, PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
     FOR_EACH_GROUP(group, n_groups)
     {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
+        const int looks = !screened || near[group] == step;
+        for (int l = 0; l < W; ++l) choice[first + l] = -1;
         lane sum = lane_load(stress_bound, (brc_size)first);
-        for (int slot = row_start[slice]; level > 0 && slot < last;
+        for (int slot = row_start[slice]; level > 0 && looks && slot < last;
              ++slot) /* what points home adds the element's own: it is no less a bound */
             sum += gather_component(stress_bound, int_block(neighbour, slot, lane0));
         const lane room = lane_load(limit_margin, (brc_size)first) * lane_load(weight, (brc_size)first) - sum;
         const failure_shear shear = {drucker_prager, slope, friction};
         int look[W], any = 0;
-#define LOOK(l) look[0x##l] = !(LANE_ITEM(room, l) > 0), any |= look[0x##l];
+#define LOOK(l) look[0x##l] = looks && !(LANE_ITEM(room, l) > 0), any |= look[0x##l];
         LANE_EACH(LOOK)
 #undef LOOK
-        for (int l = 0; l < W; ++l) choice[first + l] = -1;
         for (int l = 0; any && l < W; ++l) {
             if (!look[l]) continue;
             const failure_stress s = fracture_mean_of(first + l, level, row_start, neighbour, record);

@@ -121,11 +121,13 @@ static const brc_field_row criterion_rows[] = {
     BRC_FIELD(choice, brc_each_row, 1, INT, NULL, "chosen bonds", "-"),
     BRC_FIELD(measure, brc_each_row, 1, COEFF, NULL, "stresses at failure", "Pa"),
     BRC_FIELD(limit_margin, brc_each_row, 1, COEFF, NULL, "bounds of stress", "-"),
+    BRC_FIELD(near_margin, brc_each_row, 1, COEFF, NULL, "bounds of stress", "-"),
     BRC_KEPT_FIELD(weight, brc_each_row, 1, COEFF, brc_wants_spheres, "bounds of stress", "m^3", "fracture.weight"),
     BRC_KEPT_FIELD(weight, brc_each_row, 1, COEFF, brc_wants_cells, "bounds of stress", "m^3", "cells.weight"),
     BRC_KEPT_FIELD(stress_bound, brc_each_row, 1, COEFF, brc_wants_spheres, "bounds of stress", "m^3",
                    "fracture.reach"),
     BRC_FIELD(stress_bound, brc_each_row, 1, COEFF, brc_wants_cells, "bounds of stress", "m^3"),
+    BRC_FIELD(near, brc_each_group, 1, INT, NULL, "groups near failure", "-"),
     BRC_FIELD(mark, brc_each_group, 1, INT, NULL, "groups that lose bonds", "-"),
     BRC_FIELD(factor, brc_each_entry, 1, COEFF, weighted, "factors of bonds", "-"),
     BRC_FIELD(weakest, brc_each_row, 1, COEFF, weighted, "factors of bonds", "-"),
@@ -143,7 +145,8 @@ brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer
         {"inv_tension", BRC_VALUE_REAL, AT(scale[0])}, {"inv_compression", BRC_VALUE_REAL, AT(scale[1])},
         {"inv_shear", BRC_VALUE_REAL, AT(scale[2])},   {"slope", BRC_VALUE_REAL, AT(slope)},
         {"friction", BRC_VALUE_REAL, AT(friction)},    {"drucker_prager", BRC_VALUE_BOOL, AT(drucker_prager)},
-        {"weighted", BRC_VALUE_BOOL, AT(weighted)},    {"branch", BRC_VALUE_BUFFER, AT(branch)}};
+        {"weighted", BRC_VALUE_BOOL, AT(weighted)},    {"screened", BRC_VALUE_BOOL, AT(screened)},
+        {"branch", BRC_VALUE_BUFFER, AT(branch)}};
     return (brc_scope){.owner = "criterion",
                        .base = s->fracture,
                        .tables = {&brc_criterion_fields},
@@ -158,6 +161,7 @@ static brc_status make_passes(brc_simulation *s)
                     criterion = brc_scope_of_criterion(s, &breaks);
     const brc_pass_wanted of_state[] = {BRC_PASS(&f->stress_pass, "fracture_stress", "level"),
                                         BRC_PASS(&f->stress_second, "fracture_stress_second", NULL),
+                                        BRC_PASS(&f->near_pass, "fracture_near", "step"),
                                         BRC_PASS(&f->check, "fracture_check", "level step"),
                                         BRC_PASS(&f->choose, "fracture_choose", "step"),
                                         BRC_PASS(&f->ratio, "fracture_ratio", "ratio")};
@@ -253,6 +257,7 @@ brc_status brc_fracture_choose(brc_simulation *s, int32_t moment)
 {
     brc_breaking *f = s->fracture;
     const int32_t n = s->layout->n_rows, level = s->scene->fracture.level;
+    if (f->screened) BRC_TRY(BRC_RUN(f->near_pass, s->n_groups, {"step", BRC_INT(moment)}));
     if (level < 2)
         return brc_pass_look_awake(s, f->check, BRC_GIVEN({"level", BRC_INT(level)}, {"step", BRC_INT(moment)}));
     BRC_TRY(find_stress(s));

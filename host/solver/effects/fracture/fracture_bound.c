@@ -2,10 +2,14 @@
  * marks; and the factors of bonds that scatter or lie in an interface. */
 #include "fracture_internal.h"
 #include "strengths.h"
+#include "../../../device/shares.h"
 #include <math.h>
 
 /* Room for the rounding of the bound and of what it bounds, as in failure_possible (failure.h). */
 static const double MARGIN = 0.999;
+/* Share of an element's own margin which the smallest of its neighbours' must keep where elements are screened: bonds
+ * of very different strength would have nearly all of them looked at. */
+static const double ALIKE = 0.5;
 
 /* Smallest limit of every kind over all elements; 0: none has one. */
 static void smallest_limits(const brc_simulation *s, double smallest[3])
@@ -24,6 +28,25 @@ static double margin_of(const double *limit, const double smallest[3])
     for (int c = 0; c < 3; ++c)
         if (limit[c] > 0) margin_of_limit = fmin(margin_of_limit, limit[c] / smallest[c]);
     return margin_of_limit;
+}
+
+/* The smallest limit_margin of each row and its neighbours, and whether to screen by it. */
+static brc_status upload_near(brc_simulation *s, const double *margin, const double *weakest)
+{
+    brc_breaking *f = s->fracture;
+    const brc_domain *d = s->domain;
+    int64_t alike = 0;
+    BRC_LOCAL(s->context, s->layout->n_rows, double, near_margin, "bounds of stress");
+    for (int64_t r = 0; r < s->layout->n_rows; ++r) {
+        const int64_t e = s->layout->element_of_row[r];
+        near_margin[r] = margin[r];
+        for (int64_t h = e < 0 ? 0 : d->row_start[e]; e >= 0 && h < d->row_start[e + 1]; ++h)
+            near_margin[r] = fmin(near_margin[r], margin[s->layout->row_of_element[d->neighbour[h]]]);
+        alike += e >= 0 && near_margin[r] >= ALIKE * margin[r] / (weakest ? weakest[r] : 1);
+    }
+    f->screened = brc_device_get_info(s->device)->kind == BRC_DEVICE_CPU && !brc_device_is_shared(s->device) &&
+                  s->scene->fracture.level == 1 && 2 * alike > d->n_elements;
+    return brc_upload_coeff(s, f->near_margin, near_margin, s->layout->n_rows);
 }
 
 static brc_status upload_bounds(brc_simulation *s, const double *weakest)
@@ -47,6 +70,7 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
         for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h)
             weight[r] += brc_fracture_volume(d, d->neighbour[h]);
     }
+    BRC_TRY(upload_near(s, margin_of_limit, weakest));
     BRC_TRY(brc_upload_coeff(s, f->limit_margin, margin_of_limit, n));
     return brc_upload_coeff(s, f->weight, weight, n);
 }

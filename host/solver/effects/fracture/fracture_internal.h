@@ -17,15 +17,16 @@ typedef struct brc_break_span {
 
 /* Everything that exists only in scenes with fracture. */
 struct brc_breaking {
-    brc_pass *stress_pass, *stress_second, *check, *choose, *ratio;
+    brc_pass *stress_pass, *stress_second, *near_pass, *check, *choose, *ratio;
     brc_buffer *record, *stress, *limits, *choice, *measure;           /* fracture.cl */
     brc_buffer *break_step, *break_mode, *break_stress, *break_energy; /* [n_slots][C] */
     brc_buffer *lost, *broken;                                         /* [n_rows] */
     brc_buffer *gone; /* [n_rows] bonds that bear nothing any more; NULL: those that are broken */
-    brc_buffer *stress_bound, *limit_margin, *weight, *mark; /* fracture.cl */
-    brc_buffer *branch;                                      /* [n_slots][3][C] of its elements' bonds; borrowed */
-    brc_buffer *factor, *weakest;                            /* only if weighted */
-    bool weighted;                                           /* bonds differ in strength */
+    brc_buffer *stress_bound, *limit_margin, *near_margin, *weight, *near, *mark; /* fracture.cl */
+    brc_buffer *branch;           /* [n_slots][3][C] of its elements' bonds; borrowed */
+    brc_buffer *factor, *weakest; /* only if weighted */
+    bool weighted;                /* bonds differ in strength */
+    bool screened;   /* groups far from failure are passed by: cpu, one rank, level 1, bonds of like strength */
     double scale[3]; /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
     double *limit;   /* [n_elements][3] host */
     double slope, friction;
