@@ -11,6 +11,8 @@ typedef struct fracture_options {
     const char *strength; /* keys of the material, e.g. "strength: {tension: 1e-4 Pa}"; NULL: none */
     const char *beam;     /* value of `beam`; NULL: {radius: 0.4, E: 8 Pa} */
     const char *grains;   /* value of the body's `grains`; NULL: none */
+    const char *more;     /* another material, "name: {...}"; NULL: none */
+    const char *regions;  /* value of the body's `regions`; NULL: none */
     const char *stages;   /* keys `interactions`, `sets`, `stages` */
     const char *device;
     brc_precision precision;
