@@ -34,9 +34,9 @@ KERNEL void multigrid_cells(int n_groups, OWN(int) row_start, OWN(int) neighbour
 #if BRC_MANY_MATERIALS
             const lane_int a = who.own * 3, b = j * 3;
             const multigrid_moduli m = {
-                multigrid_in_series(gather_component(moduli_of, a), gather_component(moduli_of, b)),
-                multigrid_in_series(gather_component(moduli_of + 1, a), gather_component(moduli_of + 1, b)),
-                multigrid_in_series(gather_component(moduli_of + 2, a), gather_component(moduli_of + 2, b))};
+                multigrid_modulus(gather_component(moduli_of, a), gather_component(moduli_of, b)),
+                multigrid_modulus(gather_component(moduli_of + 1, a), gather_component(moduli_of + 1, b)),
+                multigrid_modulus(gather_component(moduli_of + 2, a), gather_component(moduli_of + 2, b))};
 #else
             const multigrid_moduli m = {LANE_ZERO + axial, LANE_ZERO + shear, LANE_ZERO + frame};
 #endif

@@ -53,7 +53,7 @@ LAW multigrid_pull multigrid_bond(multigrid_place at, multigrid_moduli k, lane_v
     return (multigrid_pull){force, lane_vec3_add(lever, lane_vec3_scale(frame, turn_jump))};
 }
 
-/* Moduli of two halves in series. */
-LAW lane multigrid_in_series(lane a, lane b) { return REAL(2) * a * b / (a + b); }
+/* Modulus of a bond between two materials (modulus_between, host/solver/statics/multigrid/fine.c). */
+LAW lane multigrid_modulus(lane a, lane b) { return REAL(0.1) * (a + b) + REAL(1.6) * a * b / (a + b); }
 
 #endif

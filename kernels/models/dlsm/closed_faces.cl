@@ -46,10 +46,22 @@ LAW int closed_is_free(GATHER(coeff) inv_shape, int e)
     GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
     return !(p[0] > 0);
 }
-LAW closed_face closed_find(GATHER(state) place, OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement,
-                            GATHER(coeff) gradient, OWN(coeff) overlap, int e, int j, brc_size entry)
+/* From the middle of the branch to the face's centroid [m]: without the weight of dlsm_flux.h. */
+LAW vec3 closed_offset(OWN(coeff) offset, GATHER(coeff) modulus, int e, int j, brc_size entry)
 {
-    closed_face f = closed_face_of(closed_difference(place, e, j), closed_row(offset, entry),
+    const vec3 d = closed_row(offset, entry);
+#if BRC_MANY_MATERIALS
+    return vec3_scale((modulus[e] + modulus[j]) / (2 * modulus[j]), d);
+#else
+    (void)modulus, (void)e, (void)j;
+    return d;
+#endif
+}
+LAW closed_face closed_find(GATHER(state) place, OWN(coeff) offset, GATHER(coeff) modulus, GATHER(coeff) inv_shape,
+                            GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) overlap, int e, int j,
+                            brc_size entry)
+{
+    closed_face f = closed_face_of(closed_difference(place, e, j), closed_offset(offset, modulus, e, j, entry),
                                    closed_difference(displacement, e, j), mat3_load(gradient, e),
                                    mat3_load(gradient, j), closed_is_free(inv_shape, e), closed_is_free(inv_shape, j));
     f.along -= overlap[entry];
@@ -102,9 +114,9 @@ KERNEL void closed_probe(int n_groups, int moment, OWN(int) row_start, GATHER(in
  * friction. friction [-]. */
 KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, OWN(int) row_start,
                           GATHER(int) neighbour, OWN(int) twin, GATHER(state) place, OWN(coeff) offset,
-                          GATHER(coeff) inv_shape, GATHER(state) displacement, GATHER(coeff) gradient,
-                          OWN(coeff) spring, OWN(coeff) overlap, SCATTER(int) closed, SCATTER(coeff) slide,
-                          UPDATE(int) next, SCATTER(int) presses, UPDATE(state) rubbed)
+                          GATHER(coeff) modulus, GATHER(coeff) inv_shape, GATHER(state) displacement,
+                          GATHER(coeff) gradient, OWN(coeff) spring, OWN(coeff) overlap, SCATTER(int) closed,
+                          SCATTER(coeff) slide, UPDATE(int) next, SCATTER(int) presses, UPDATE(state) rubbed)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int until = moves ? moment : moment + 1; /* of a state that a step has left, the same faces */
@@ -117,7 +129,7 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                 const int j = CLOSED_OTHER(entry);
                 if (!(e < j) || !CLOSED_HOLDS(entry)) continue; /* the lower row writes what the upper would read */
                 const closed_face f =
-                    closed_find(place, offset, inv_shape, displacement, gradient, overlap, e, j, entry);
+                    closed_find(place, offset, modulus, inv_shape, displacement, gradient, overlap, e, j, entry);
                 const int pressed = f.along < 0, was = CLOSED_IS(entry) == CLOSED_PRESSED;
                 const brc_size other = (brc_size)twin[entry];
                 if (moves) {
@@ -167,9 +179,9 @@ LAW vec3 closed_kept(vec3 held, coeff along, coeff friction)
 /* What the pressed faces of one element add to it; returns whether any is pressed. broke: bonds did, so faces may be
  * new, or of a cell that has come off. */
 LAW int closed_sum(int e, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin, GATHER(state) place,
-                   OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement, GATHER(coeff) gradient,
-                   OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed, UPDATE(coeff) slide, coeff friction,
-                   int broke, GATHER(int) touched, coeff *sum, state *energy)
+                   OWN(coeff) offset, GATHER(coeff) modulus, GATHER(coeff) inv_shape, GATHER(state) displacement,
+                   GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed,
+                   UPDATE(coeff) slide, coeff friction, int broke, GATHER(int) touched, coeff *sum, state *energy)
 {
     mat3 q = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     vec3 push = {0, 0, 0};
@@ -179,7 +191,7 @@ LAW int closed_sum(int e, OWN(int) row_start, GATHER(int) neighbour, OWN(int) tw
         const brc_size entry = CLOSED_ENTRY;
         if (!CLOSED_HOLDS(entry)) continue;
         const int j = CLOSED_OTHER(entry);
-        closed_face f = closed_find(place, offset, inv_shape, displacement, gradient, overlap, e, j, entry);
+        closed_face f = closed_find(place, offset, modulus, inv_shape, displacement, gradient, overlap, e, j, entry);
         if (broke && (touched[e] || touched[j])) { /* H of one of them is another: both sides ask anew */
             const int kind = 1 + closed_is_free(inv_shape, e) + closed_is_free(inv_shape, j);
             if (closed[entry] / CLOSED_KIND != kind) {
@@ -218,9 +230,9 @@ LAW int closed_sum(int e, OWN(int) row_start, GATHER(int) neighbour, OWN(int) tw
 
 /* Loads of the elements that closed_follow found pressed. */
 KERNEL void closed_press(int n_groups, coeff friction, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin,
-                         GATHER(state) place, OWN(coeff) offset, GATHER(coeff) inv_shape, GATHER(state) displacement,
-                         GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed,
-                         UPDATE(coeff) slide, GATHER(int) presses, PUT(coeff) load, PUT(state) held)
+                         GATHER(state) place, OWN(coeff) offset, GATHER(coeff) modulus, GATHER(coeff) inv_shape,
+                         GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap,
+                         UPDATE(int) closed, UPDATE(coeff) slide, GATHER(int) presses, PUT(coeff) load, PUT(state) held)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(presses, (brc_size)group * W);
@@ -228,8 +240,8 @@ KERNEL void closed_press(int n_groups, coeff friction, OWN(int) row_start, GATHE
             if (!presses[e]) continue;
             coeff sum[CLOSED_LOAD];
             state energy;
-            closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient, spring, overlap,
-                       closed, slide, friction, 0, presses, sum, &energy);
+            closed_sum(e, row_start, neighbour, twin, place, offset, modulus, inv_shape, displacement, gradient, spring,
+                       overlap, closed, slide, friction, 0, presses, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) load[(brc_size)e * CLOSED_LOAD + (brc_size)c] = sum[c];
             held[e] = energy;
         }
@@ -283,10 +295,10 @@ KERNEL void closed_energy(int n, OWN(int) presses, OWN(state) held, PUT(state) o
  * are looked at in the next step. */
 KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) touched, OWN(int) row_start,
                          GATHER(int) neighbour, OWN(int) twin, GATHER(state) place, OWN(coeff) offset,
-                         GATHER(coeff) inv_shape, GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) spring,
-                         UPDATE(coeff) overlap, UPDATE(int) closed, UPDATE(coeff) slide, OWN(int) probe,
-                         SCATTER(int) near, PUT(int) next, UPDATE(int) presses, UPDATE(coeff) load, PUT(state) held,
-                         PUT(coeff) delta)
+                         GATHER(coeff) modulus, GATHER(coeff) inv_shape, GATHER(state) displacement,
+                         GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed,
+                         UPDATE(coeff) slide, OWN(int) probe, SCATTER(int) near, PUT(int) next, UPDATE(int) presses,
+                         UPDATE(coeff) load, PUT(state) held, PUT(coeff) delta)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int fresh =
@@ -296,8 +308,8 @@ KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) t
             coeff sum[CLOSED_LOAD];
             state energy;
             const int before = presses[e];
-            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, inv_shape, displacement, gradient,
-                                       spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
+            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, modulus, inv_shape, displacement,
+                                       gradient, spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) {
                 const brc_size at = (brc_size)e * CLOSED_LOAD + (brc_size)c;
                 delta[at] = sum[c] - (before ? load[at] : 0);

@@ -101,10 +101,13 @@ LAW dlsm_flux_sums dlsm_flux_gradients_at(aside room, dlsm_row row, dlsm_flux_su
 #endif
     return dlsm_flux_add_bond(sums, r, mr, s);
 }
-/* ... and to that of stresses. */
+/* ... and to that of stresses; k: of the element. */
 LAW dlsm_flux_sums dlsm_flux_stress_at(dlsm_flux_sums sums, lane_vec3 area, lane_vec3 offset, lane_mat3 p_j,
-                                       lane_mat3 p)
+                                       lane_mat3 p, lane_int j, lane k, GATHER(coeff) modulus)
 {
+#if BRC_MANY_MATERIALS
+    p_j = lane_mat3_scale(k / gather_component(modulus, j), p_j);
+#endif
     return dlsm_flux_add_stress(sums, lane_mat3_add(p, p_j), area, offset);
 }
 
@@ -131,7 +134,7 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, aside room, OWN(int) neighbour
             if (!SPLIT_LOOPS) {
                 members_ahead3(who, offset, slot);
                 sums = dlsm_flux_stress_at(sums, row[t].area, members_row3(who, offset, slot),
-                                           lane_gather9(stress, row[t].j), p);
+                                           lane_gather9(stress, row[t].j), p, row[t].j, k, modulus);
             }
         }
     }
@@ -140,20 +143,21 @@ LAW dlsm_flux_sums dlsm_flux_sums_of(members who, aside room, OWN(int) neighbour
 
 /* V P - q [N m] in a loop of its own. */
 LAW lane_mat3 dlsm_flux_own_of(members who, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) offset,
-                               GATHER(coeff) stress, OWN(coeff) inv_volume)
+                               GATHER(coeff) stress, OWN(coeff) inv_volume, lane k, GATHER(coeff) modulus)
 {
     dlsm_flux_sums sums = {lane_mat3_zero(), lane_mat3_zero(), lane_mat3_zero()};
     const lane_mat3 p = lane_gather9(stress, who.own);
     lane_int next[TURNS];
-    EACH_TURN(k) next[k] = members_first_neighbour(who, neighbour, k);
+    EACH_TURN(t) next[t] = members_first_neighbour(who, neighbour, t);
     for (int slot = who.begin; slot < who.end; slot += TURNS) {
         dlsm_row row[TURNS];
         lane_mat3 there[TURNS];
-        EACH_TURN(k)
-        row[k] = dlsm_turn_row(who, slot + k, &next[k], neighbour, area, offset, DLSM_OFFSET);
-        EACH_TURN(k) there[k] = lane_gather9(stress, row[k].j);
-        EACH_TURN(k)
-        if (!k || slot + k < who.end) sums = dlsm_flux_stress_at(sums, row[k].area, row[k].offset, there[k], p);
+        EACH_TURN(t)
+        row[t] = dlsm_turn_row(who, slot + t, &next[t], neighbour, area, offset, DLSM_OFFSET);
+        EACH_TURN(t) there[t] = lane_gather9(stress, row[t].j);
+        EACH_TURN(t)
+        if (!t || slot + t < who.end)
+            sums = dlsm_flux_stress_at(sums, row[t].area, row[t].offset, there[t], p, row[t].j, k, modulus);
     }
     return dlsm_flux_own(p, REAL(1) / members_number(who, inv_volume), sums.q);
 }
@@ -170,7 +174,8 @@ LAW lane_mat3 dlsm_flux_of(members who, aside room, OWN(int) neighbour, OWN(coef
                            PUT(coeff) bond_part)
 {
     const lane k = MEMBERS_MATERIAL(2, k_one), ell = MEMBERS_MATERIAL(3, ell_one);
-    if (SPLIT_LOOPS) aside_put9(room, ASIDE_OWN, dlsm_flux_own_of(who, neighbour, area, offset, stress, inv_volume));
+    if (SPLIT_LOOPS)
+        aside_put9(room, ASIDE_OWN, dlsm_flux_own_of(who, neighbour, area, offset, stress, inv_volume, k, modulus));
     lane_mat3 h = lane_gather9(gradient, who.own), m;
     const lane_mat3 p = SPLIT_LOOPS ? lane_mat3_zero() : lane_gather9(stress, who.own);
     dlsm_flux_sums sums;

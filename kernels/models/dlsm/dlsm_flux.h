@@ -2,8 +2,8 @@
  * (docs/notebook/theory.md T2, third pass): B = Q A^-1 [Pa], with one material plus k (1 + tau) times the bond part.
  * The stress term of Q is that of G = H + sum (H_j - H_i) d (x) s / (2 V): no face moments are stored or read
  * (docs/notebook/theory.md T2). Several materials: a bond takes the softer of its two stabilisation moduli, k_ij =
- * min(k_i, k_j), for both terms of its energy, so that it stays bounded by the elastic energy of either side at any
- * contrast. */
+ * min(k_i, k_j), for both terms of its energy, and the centroid of its face follows the stiffer of its two cells: the
+ * offset of a half-edge is 2 k_j / (k_i + k_j) d, that of its twin k_i / k_j times as long. */
 #ifndef BRC_KERNELS_DLSM_FLUX_H
 #define BRC_KERNELS_DLSM_FLUX_H
 
@@ -13,7 +13,7 @@
 typedef struct {
     lane_mat3 rs; /* sum c r (x) s [m^3]; c = k_ij / k_i, 1 with one material */
     lane_mat3 ms; /* sum c m (x) s [m^3] */
-    lane_mat3 q;  /* sum (P_i + P_j) s (x) d / 2 [N m] */
+    lane_mat3 q;  /* sum (P_i + (k_i / k_j) P_j) s (x) offset / 2 [N m] */
 } dlsm_flux_sums;
 
 /* With one material, what stands for r = (u_j - u_i) - (H_i + H_j)/2 R in sum r (x) s [m] is (H_i - H_j) R / 2: the sum

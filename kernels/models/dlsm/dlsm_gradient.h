@@ -9,7 +9,7 @@
 LAW lane_mat3 dlsm_add_jump(lane_mat3 a, lane_vec3 jump, lane_vec3 area) { return lane_add_outer(a, jump, area); }
 
 /* sum_j ((H_j - H_i) d) (x) s [m^3]; offset: d = C - (X_i + X_j)/2, from the middle of the branch to the face's
- * centroid [m]. */
+ * centroid [m], with several materials times the neighbour's part in it (dlsm_flux.h). */
 LAW lane_mat3 dlsm_add_offset(lane_mat3 sum, lane_mat3 gradient_difference, lane_vec3 offset, lane_vec3 area)
 {
     return lane_add_outer(sum, lane_mat3_mul_vec(gradient_difference, offset), area);

@@ -90,12 +90,23 @@ LAW void rim_ask(const rim_bonds *bonds, int e, OWN(coeff) p)
     }
 }
 
+/* As dlsm_flux_stress_at: what the stress of j counts for in the flux of e. */
+LAW coeff rim_share(int e, int j, GATHER(coeff) modulus)
+{
+#if BRC_MANY_MATERIALS
+    return modulus[e] / modulus[j];
+#else
+    (void)e, (void)j, (void)modulus;
+    return REAL(1);
+#endif
+}
+
 /* B of ring 2, list: that of the rings 0 to 2. To it comes -(1/2) sum (P_j s) (x) d A^-1 of what its neighbours' P
  * gained (dlsm_flux.h). A work-item looks for the bonds of W elements before it sums them up, so that their faces are
  * under way together. */
 KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row_start, OWN(int) neighbour,
-                     OWN(coeff) area, OWN(coeff) offset, OWN(coeff) inv_shape, GATHER(int) level, SCATTER(coeff) delta,
-                     UPDATE(coeff) flux)
+                     OWN(coeff) area, OWN(coeff) offset, OWN(coeff) inv_shape, GATHER(coeff) modulus, GATHER(int) level,
+                     SCATTER(coeff) delta, UPDATE(coeff) flux)
 {
     FOR_EACH_ITEM(item, n_items) {
         rim_bonds bonds[W];
@@ -117,7 +128,8 @@ KERNEL void rim_flux(int n_items, int n, OWN(int) list, int fluxes, OWN(int) row
                 for (int m = 0; m < own->n; ++m) {
                     const brc_size at = (brc_size)own->slot[m] * 3 * C + e % C;
                     GLOBAL const coeff *p = delta + (brc_size)own->record[m] * 9;
-                    const coeff x = area[at], y = area[at + C], z = area[at + 2 * C];
+                    const coeff share = rim_share(e, neighbour[(brc_size)own->slot[m] * C + e % C], modulus);
+                    const coeff x = share * area[at], y = share * area[at + C], z = share * area[at + 2 * C];
                     for (int c = 0; c < 3; ++c) {
                         const coeff pull = p[3 * c] * x + p[3 * c + 1] * y + p[3 * c + 2] * z;
                         q[3 * c] += pull * offset[at], q[3 * c + 1] += pull * offset[at + C],

@@ -1,5 +1,6 @@
 /* The forces of dlsm against differences of its energy, and their invariances, on states far from equilibrium. */
 #include "../support.h"
+#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -113,6 +114,57 @@ static void force_is_the_gradient_with_held_faces(void **state)
     const double error = gradient_error(&c, 0.01);
     close_case(&c);
     if (!(error < 1e-9)) fail_msg("%g", error);
+}
+
+/* Least eigenvalue of the stiffness at rest over a spacing, rows and columns of an element over the root of its E [-]:
+ * 0, of rigid motions, but for the rounding of forces. */
+static double least_stiffness(bench_case *c, const double young[2])
+{
+    const brc_domain *d = c->domain;
+    const int64_t n = 3 * d->n_elements;
+    const double spacing = cbrt(d->volume[0]), h = 1e-5 * spacing;
+    double *u = calloc((size_t)n, sizeof *u), *f = calloc((size_t)(2 * n), sizeof *f),
+           *k = calloc((size_t)(n * n), sizeof *k), *values = calloc((size_t)n, sizeof *values);
+    assert_done(c, brc_simulation_begin_stage(c->simulation, 0));
+    for (int64_t i = 0; i < n; ++i) {
+        for (int side = 0; side < 2; ++side) {
+            u[i] = side ? h : -h;
+            assert_done(c, brc_simulation_set_state(c->simulation, u, NULL));
+            assert_done(c, brc_simulation_force(c->simulation, f + side * n));
+        }
+        u[i] = 0;
+        for (int64_t j = 0; j < n; ++j)
+            k[i * n + j] =
+                (f[j] - f[n + j]) / (2 * h * spacing) / sqrt(young[d->region[i / 3] > 0] * young[d->region[j / 3] > 0]);
+    }
+    assert_int_equal(LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', (lapack_int)n, k, (lapack_int)n, values), 0);
+    const double least = values[0];
+    free(u), free(f), free(k), free(values);
+    return least;
+}
+
+/* Layers of a stiff and a soft material, in cells so uneven that a soft cell's gradient reaches far into the faces of
+ * its stiff neighbours: with the mean of both on such a face the least of these is -70. */
+static void stiffness_of_stiff_and_soft_layers_is_positive(void **state)
+{
+    (void)state;
+    const double young[2] = {1, 1e-5};
+    bench_case c;
+    open_case(&c,
+              (case_options){
+                  .materials =
+                      "  stone: {E: 1 Pa, nu: 0.25, density: 1 kg/m^3}\n  foam: {E: 1e-5 Pa, nu: 0.2, density: 1 "
+                      "kg/m^3}",
+                  .regions = "    regions:\n"
+                             "      - {material: foam, where: {box: {from: [0, 0, 0], to: [1 m, 1 m, 12.5 cm]}}}\n"
+                             "      - {material: foam, where: {box: {from: [0, 0, 25 cm], to: [1 m, 1 m, 37.5 cm]}}}\n"
+                             "      - {material: foam, where: {box: {from: [0, 0, 50 cm], to: [1 m, 1 m, 62.5 cm]}}}\n"
+                             "      - {material: foam, where: {box: {from: [0, 0, 75 cm], to: [1 m, 1 m, 87.5 cm]}}}\n",
+                  .fill = "cells: [7, 7, 7], spread: 90 %, seed: 5"});
+    const double least = least_stiffness(&c, young);
+    print_message("least stiffness %.2e\n", least);
+    close_case(&c);
+    if (!(least > -1e-6)) fail_msg("least stiffness %g", least);
 }
 
 /* Mean torque of a rigidly turned cube [N m], the largest over its axes and some angles: turns a little different from
@@ -276,6 +328,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(force_is_the_gradient_of_the_energy),
         cmocka_unit_test(force_is_the_gradient_with_two_materials),
+        cmocka_unit_test(stiffness_of_stiff_and_soft_layers_is_positive),
         cmocka_unit_test(force_is_the_gradient_without_compaction),
         cmocka_unit_test(force_is_the_gradient_with_held_faces),
         cmocka_unit_test(total_force_and_moment_vanish),

@@ -119,6 +119,15 @@ static void forces_velocities_and_energy_after_a_break_are_those_of_the_whole_bo
               20, 0.97);
     one_break((case_options){.stages = CELLS_BURST(60), .materials = CELLS_STRENGTH("1 Pa"), .sets = CELLS_FRACTURE},
               20, 0.5);
+    one_break((case_options){.stages = CELLS_BURST(60),
+                             .materials = CELLS_STRENGTH("1 Pa") "\n  steel: {E: 30 Pa, nu: 0.3, density: 1 kg/m^3, "
+                                                                 "strength: {tension: 30 Pa}}",
+                             .regions =
+                                 "    regions:\n      - {where: {box: {from: [0.5 m, -1 m, -1 m], to: [2 m, 2 m, "
+                                 "2 m]}}, material: steel}\n",
+                             .sets = CELLS_FRACTURE,
+                             .fill = "cells: [12, 9, 9], spread: 90 %, seed: 2"},
+              20, 0.97);
 }
 
 static void held_faces_tractions_and_gravity_stay(void **state)

@@ -14,13 +14,16 @@ static void ratio(const brc_simulation *s, int64_t e, int64_t h, double out[3])
     brc_consistent_bond(s, e, h, surface, out);
 }
 
-/* From the middle of a branch to the centroid of its face. */
+/* From the middle of a branch to the centroid of its face, times the neighbour's part in it: 1 between equals
+ * (kernels/models/dlsm/dlsm_flux.h). */
 static void offset(const brc_simulation *s, int64_t e, int64_t h, double out[3])
 {
     const brc_domain *d = s->domain;
     const int64_t j = d->neighbour[h];
+    const double own = s->elastic[s->material_of_element[e]].k, other = s->elastic[s->material_of_element[j]].k;
+    const double part = 2 * other / (own + other);
     for (int c = 0; c < 3; ++c)
-        out[c] = d->face_centroid[3 * h + c] - 0.5 * (d->position[3 * e + c] + d->position[3 * j + c]);
+        out[c] = part * (d->face_centroid[3 * h + c] - 0.5 * (d->position[3 * e + c] + d->position[3 * j + c]));
 }
 
 brc_status brc_dlsm_upload(brc_simulation *s)
