@@ -64,16 +64,16 @@ static brc_status begin(brc_simulation *s, brc_solve_vectors *v, bool rotations,
     return brc_unknowns_dot(s, v->r, v->z, 1, rz);
 }
 
-/* Multigrid and rigid parts put rigid motions that the supports leave free into x, which K does not see: they are taken
- * off. */
+/* A preconditioner puts rigid motions that the supports leave free into x, which K does not see, and by which dead
+ * loads would no longer balance: they are taken off. */
 static brc_status remove_free_motions(brc_simulation *s, brc_solve_vectors *v)
 {
-    if (!v->pieces.any || !(v->preconditioner.multigrid || v->preconditioner.parts)) return BRC_OK;
+    if (!v->pieces.any) return BRC_OK;
     return brc_statics_project_free_motions(s, v, v->x);
 }
 
-/* Rigid motions that the supports leave free are in the null space of K: blocks never leave the right side's
- * complement; when the loads do not balance, the residual stalls and the sentence says so. */
+/* Rigid motions that the supports leave free are in the null space of K; when the loads do not balance, the residual
+ * stalls and the sentence says so. */
 brc_status brc_conjugate_gradients(brc_simulation *s, brc_solve_vectors *v, bool rotations, double target, int32_t most,
                                    brc_progress *progress, double *left)
 {

@@ -156,6 +156,30 @@ static void a_free_body_stays_where_it_is(void **state)
     assert_it_stays("  stone: {E: 1 Pa, nu: -0.95, density: 1 kg/m^3}");
 }
 
+/* A prism between two plates, pressed from the sides by dead loads: free to move along two axes and to turn about the
+ * third. Loads are balanced by the undeformed body; by which a turn of 1e-6 would leave 1e-6 of them. */
+static void a_confined_prism_is_in_equilibrium(void **state)
+{
+    (void)state;
+    for (int by_levels = 0; by_levels < 2; ++by_levels) {
+        bench_case c;
+        open_case(&c, (case_options){.materials = "  stone: {E: 50 GPa, nu: 0.25, density: 2650 kg/m^3}",
+                                     .shape = "{box: {size: [25 mm, 50 mm, 25 mm]}}",
+                                     .fill = "cells: [5, 10, 5], spread: 90 %, lloyd: 3, seed: 1",
+                                     .stages = STAGE(
+                                         "      - face_displacement: {set: y-, y: 0}\n      - face_displacement: {set: "
+                                         "y+, y: 0}\n      - pressure: {set: x-, value: 10 MPa}\n      - pressure: "
+                                         "{set: x+, value: 10 MPa}\n      - pressure: {set: z-, value: 10 MPa}\n      "
+                                         "- pressure: {set: z+, value: 10 MPa}\n")});
+        c.scene->stages[0].preconditioner = by_levels ? BRC_PRECONDITIONER_MULTIGRID : BRC_PRECONDITIONER_BLOCKS;
+        assert_done(&c, brc_simulation_run(c.simulation));
+        const brc_static_report report = brc_simulation_static_report(c.simulation);
+        if (!(report.residual < 1e-10 && report.corrections < 6))
+            fail_msg("residual %g after %d corrections", report.residual, (int)report.corrections);
+        close_case(&c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +189,7 @@ int main(void)
         cmocka_unit_test(dynamic_stages_may_move_as_they_like),
         cmocka_unit_test(motions_aslant_the_axes_are_counted),
         cmocka_unit_test(a_free_body_stays_where_it_is),
+        cmocka_unit_test(a_confined_prism_is_in_equilibrium),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
