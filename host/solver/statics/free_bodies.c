@@ -15,6 +15,8 @@ typedef struct parts {
     brc_free_motions *free; /* [n] */
     double (*push)[6];      /* [n] work of the loads on each free motion, */
     double (*most)[6];      /* and with all of it of one sign */
+    double (*lean)[3][3];   /* [n] sum of force (x) place from the centre [N m] */
+    double (*spread)[3][3]; /* [n] sum of mass place (x) place [kg m^2] */
 } parts;
 
 static brc_status find_parts(brc_context *context, const brc_domain *d, parts *p)
@@ -26,6 +28,8 @@ static brc_status find_parts(brc_context *context, const brc_domain *d, parts *p
     BRC_TRY(BRC_ALLOCATE(context, &p->free, p->n, "parts of bodies"));
     BRC_TRY(BRC_ALLOCATE(context, &p->push, p->n, "parts of bodies"));
     BRC_TRY(BRC_ALLOCATE(context, &p->most, p->n, "parts of bodies"));
+    BRC_TRY(BRC_ALLOCATE(context, &p->lean, p->n, "parts of bodies"));
+    BRC_TRY(BRC_ALLOCATE(context, &p->spread, p->n, "parts of bodies"));
     for (int64_t e = d->n_elements - 1; e >= 0; --e) {
         p->size[p->of[e]] += 1;
         p->first[p->of[e]] = (int32_t)e;
@@ -41,6 +45,8 @@ static void free_parts(parts *p)
     brc_memory_free(p->free);
     brc_memory_free(p->push);
     brc_memory_free(p->most);
+    brc_memory_free(p->lean);
+    brc_memory_free(p->spread);
 }
 
 /* Places of all parts, then what they are supported at. */
@@ -60,7 +66,12 @@ static brc_status begin_motions(brc_context *context, const brc_domain *d, parts
 
 static bool is_motion_of(const brc_load *load, bool faces)
 {
-    return load->kind == (faces ? BRC_LOAD_FACE_DISPLACEMENT : BRC_LOAD_ELEMENT_DISPLACEMENT);
+    return faces ? load->kind == BRC_LOAD_FACE_DISPLACEMENT || load->kind == BRC_LOAD_FACE_VELOCITY
+                 : load->kind == BRC_LOAD_ELEMENT_DISPLACEMENT || load->kind == BRC_LOAD_ELEMENT_VELOCITY;
+}
+static bool is_force(const brc_load *load)
+{
+    return load->kind == BRC_LOAD_TRACTION || load->kind == BRC_LOAD_PRESSURE || load->kind == BRC_LOAD_ELEMENT_FORCE;
 }
 
 /* The set a load names, NULL where the run will say that there is none. */
@@ -93,6 +104,9 @@ static void push(parts *p, int32_t e, const double *place, const double force[3]
 {
     const int32_t i = p->of[e];
     const brc_free_motions *free = &p->free[i];
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            p->lean[i][r][c] += force[r] * (place[c] - free->centre[c]);
     for (int m = 0; m < free->n; ++m) {
         const double *a = free->motion[m], *b = a + 3;
         for (int c = 0; c < 3; ++c) {
@@ -243,14 +257,14 @@ static void tell_part(brc_context *context, const brc_scene *scene, const brc_st
                 scene->bodies[body].name, motions);
 }
 
-static brc_status tell_stage(brc_context *context, const brc_scene *scene, const brc_stage *stage, const brc_domain *d,
-                             parts *p, bool all)
+/* What the loads of a stage leave free, and what they do there. */
+static brc_status find_free_motions(brc_context *context, const brc_scene *scene, const brc_stage *stage,
+                                    const brc_domain *d, parts *p)
 {
-    enum { MOST_WARNED = 8 };
-    int64_t n_warned = 0;
     BRC_TRY(begin_motions(context, d, p));
     memset(p->push, 0, (size_t)p->n * sizeof *p->push);
     memset(p->most, 0, (size_t)p->n * sizeof *p->most);
+    memset(p->lean, 0, (size_t)p->n * sizeof *p->lean);
     for (int32_t l = 0; l < stage->n_loads; ++l) {
         const brc_load *load = &stage->loads[l];
         if (is_motion_of(load, true) || is_motion_of(load, false) || load->kind == BRC_LOAD_ELEMENT_ROTATION)
@@ -260,6 +274,91 @@ static brc_status tell_stage(brc_context *context, const brc_scene *scene, const
         if (!brc_free_motions_find(&p->free[i]))
             return BRC_FAIL(context, BRC_INTERNAL, "the free motions of stage '%s' were not found", stage->name);
     push_all(scene, stage, d, p);
+    return BRC_OK;
+}
+
+/* a.A a - tr A: of a turn about the axis a by 1, twice the work of dead forces to second order (their lean), or minus
+ * the moment of inertia (the spread of mass). */
+static double about(const double axis[3], double of[3][3])
+{
+    double sum = -of[0][0] - of[1][1] - of[2][2];
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            sum += axis[r] * of[r][c] * axis[c];
+    return sum;
+}
+
+/* "y", or "(0.71, 0, 0.71)". */
+static const char *axis_text(const double axis[3], char *out, size_t room)
+{
+    static const double near = 1e-3;
+    for (int c = 0; c < 3; ++c)
+        if (fabs(axis[c]) > 1 - near) return c == 0 ? "x" : c == 1 ? "y" : "z";
+    double told[3];
+    for (int c = 0; c < 3; ++c)
+        told[c] = fabs(axis[c]) < near ? 0 : axis[c];
+    snprintf(out, room, "(%.2g, %.2g, %.2g)", told[0], told[1], told[2]);
+    return out;
+}
+
+/* How long the forces of a stage last [s]: its duration, or until the tables of all of them have come to 0. */
+static double lasts(const brc_stage *stage)
+{
+    double longest = 0;
+    for (int32_t l = 0; l < stage->n_loads; ++l) {
+        const brc_load *load = &stage->loads[l];
+        if (!is_force(load)) continue;
+        const int32_t last = load->table.n - 1;
+        const bool ends = last >= 0 && load->table.value[last] == 0;
+        longest = fmax(longest, ends ? fmin(load->table.time[last], stage->duration) : stage->duration);
+    }
+    return longest;
+}
+
+/* Dead forces that press a part which nothing keeps from turning: the farther it turns, the more they turn it. Warned
+ * of where a turn grows tenfold ten times while they last. */
+static void tell_turning(brc_context *context, const brc_scene *scene, const brc_stage *stage, const brc_domain *d,
+                         const parts *p, int64_t i)
+{
+    const int32_t e = p->first[i], body = d->body[e] < scene->n_bodies ? d->body[e] : 0;
+    double turn[3][3];
+    char axis[64];
+    const int n_turns = turns_of(&p->free[i], turn);
+    for (int m = 0; m < n_turns; ++m) {
+        const double work = about(turn[m], p->lean[i]), inertia = -about(turn[m], p->spread[i]);
+        const double tenfold = work > 0 && inertia > 0 ? log(10) / sqrt(work / inertia) : INFINITY;
+        if (!(lasts(stage) > 10 * tenfold)) continue;
+        brc_log(context, BRC_LOG_WARNING,
+                "stage '%s': body '%s' is free to turn about %s, and its loads press it: they keep their direction, so "
+                "that a turn grows tenfold every %.2g s of the %.2g s they last; hold two of its elements by "
+                "element_velocity, or press it by strikers",
+                stage->name, scene->bodies[body].name, axis_text(turn[m], axis, sizeof axis), tenfold, lasts(stage));
+        return;
+    }
+}
+
+static brc_status tell_dynamic_stage(brc_context *context, const brc_scene *scene, const brc_stage *stage,
+                                     const brc_domain *d, parts *p)
+{
+    BRC_TRY(find_free_motions(context, scene, stage, d, p));
+    memset(p->spread, 0, (size_t)p->n * sizeof *p->spread);
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+                p->spread[p->of[e]][r][c] += mass_of(scene, d, e) *
+                                             (d->position[3 * e + r] - p->free[p->of[e]].centre[r]) *
+                                             (d->position[3 * e + c] - p->free[p->of[e]].centre[c]);
+    for (int64_t i = 0; i < p->n; ++i)
+        if (p->free[i].n > 0 && p->size[i] > 1) tell_turning(context, scene, stage, d, p, i);
+    return BRC_OK;
+}
+
+static brc_status tell_stage(brc_context *context, const brc_scene *scene, const brc_stage *stage, const brc_domain *d,
+                             parts *p, bool all)
+{
+    enum { MOST_WARNED = 8 };
+    int64_t n_warned = 0;
+    BRC_TRY(find_free_motions(context, scene, stage, d, p));
     for (int64_t i = 0; i < p->n; ++i) {
         if (p->free[i].n == 0 || p->size[i] < 2) continue; /* single elements without bonds: beams.c */
         if (n_warned++ < MOST_WARNED) tell_part(context, scene, stage, d, p, i, all);
@@ -270,14 +369,27 @@ static brc_status tell_stage(brc_context *context, const brc_scene *scene, const
     return BRC_OK;
 }
 
+/* A dynamic stage with forces and nothing else that may hold a body. */
+static bool presses_freely(const brc_scene *scene, const brc_stage *stage)
+{
+    bool some = false;
+    for (int32_t l = 0; l < stage->n_loads; ++l)
+        some = some || is_force(&stage->loads[l]);
+    return some && stage->solver == BRC_SOLVER_DYNAMIC && scene->n_strikers == 0;
+}
+
 brc_status brc_free_bodies_tell(brc_context *context, const brc_scene *scene, const brc_domain *domain, bool all)
 {
     parts p = {0};
     brc_status status = BRC_OK;
     for (int32_t k = 0; status == BRC_OK && k < scene->n_stages; ++k) {
-        if (scene->stages[k].solver != BRC_SOLVER_STATIC) continue;
+        const brc_stage *stage = &scene->stages[k];
+        const bool is_static = stage->solver == BRC_SOLVER_STATIC;
+        if (!is_static && !presses_freely(scene, stage)) continue;
         if (!p.of) status = find_parts(context, domain, &p);
-        if (status == BRC_OK) status = tell_stage(context, scene, &scene->stages[k], domain, &p, all);
+        if (status != BRC_OK) break;
+        status = is_static ? tell_stage(context, scene, stage, domain, &p, all)
+                           : tell_dynamic_stage(context, scene, stage, domain, &p);
     }
     free_parts(&p);
     return status;

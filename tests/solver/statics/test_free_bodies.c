@@ -94,6 +94,27 @@ static void dynamic_stages_may_move_as_they_like(void **state)
         "");
 }
 
+/* A prism of w = 1 m and h = 2 m pressed by p from four sides turns about its axis as exp(q t): a turn gives the couple
+ * 2 p w^2 h, over the inertia rho w^4 h / 8 of cells whose middles stand w / 4 off the axis; q = 4 1/s of 1 Pa and 1
+ * kg/m^3, so it grows tenfold in ln 10 / q = 0.58 s. */
+static void dead_loads_that_press_a_body_which_may_turn_are_warned_of(void **state)
+{
+    (void)state;
+#define PRESSED(duration, value, more)                                                                                 \
+    "  - name: crush\n    solver: {dynamic: {duration: " duration                                                      \
+    "}}\n    loads:\n      - face_displacement: {set: x-, x: 0}\n      - face_velocity: {set: x+, x: -1 mm/s}\n"       \
+    "      - pressure: {set: y-, value: " value more "}\n      - pressure: {set: y+, value: " value more               \
+    "}\n      - pressure: {set: z-, value: " value more "}\n      - pressure: {set: z+, value: " value more "}\n"
+    expect(told_of(PRESSED("9 s", "1 Pa", ""), NULL, false),
+           "warning: stage 'crush': body 'body' is free to turn about x, and its loads press it: they keep their "
+           "direction, so that a turn grows tenfold every 0.58 s of the 9 s they last");
+    assert_string_equal(told_of(PRESSED("5 s", "1 Pa", ""), NULL, false), "");  /* too short */
+    assert_string_equal(told_of(PRESSED("9 s", "-1 Pa", ""), NULL, false), ""); /* pulled it turns back */
+    assert_string_equal(told_of(PRESSED("9 s", "1 Pa", ", table: [[0, 1], [4 s, 0]]"), NULL, false), ""); /* a pulse */
+    assert_string_equal(
+        told_of(PRESSED("9 s", "1 Pa", "") "      - element_displacement: {set: low, y: 0, z: 0}\n", NULL, false), "");
+}
+
 static void motions_aslant_the_axes_are_counted(void **state)
 {
     (void)state;
@@ -187,6 +208,7 @@ int main(void)
         cmocka_unit_test(motions_that_loads_push_are_warned_of_by_name),
         cmocka_unit_test(motions_that_no_load_pushes_are_told_where_all_are_asked_for),
         cmocka_unit_test(dynamic_stages_may_move_as_they_like),
+        cmocka_unit_test(dead_loads_that_press_a_body_which_may_turn_are_warned_of),
         cmocka_unit_test(motions_aslant_the_axes_are_counted),
         cmocka_unit_test(a_free_body_stays_where_it_is),
         cmocka_unit_test(a_confined_prism_is_in_equilibrium),
