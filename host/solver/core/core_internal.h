@@ -50,7 +50,7 @@ struct brc_core {
 
     /* connectivity and geometry (geometry.c) */
     brc_buffer *row_start, *neighbour, *asked_ahead, *boundary;
-    brc_buffer *area, *offset, *ratio; /* dlsm: s, d, q; published: branch (in offset), S (in area) */
+    brc_buffer *area, *offset, *ratio; /* dlsm: s, d (dlsm_flux.h), q; published: branch (in offset), S (in area) */
     brc_buffer *inv_shape, *inv_volume;
     brc_buffer *material, *modulus, *ell_of, *lame_of;
     brc_buffer *mass, *volume, *inertia;

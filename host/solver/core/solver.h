@@ -83,7 +83,7 @@ brc_buffer *brc_lost_damping_of(const brc_simulation *s); /* [n_rows] */
 brc_buffer *brc_lost_numerical_of(const brc_simulation *s);
 brc_buffer *brc_neighbour_of(const brc_simulation *s); /* of half-edges, as the next three */
 brc_buffer *brc_area_of(const brc_simulation *s);      /* dlsm: s; dlsm-published: S */
-brc_buffer *brc_offset_of(const brc_simulation *s);    /* dlsm: d; others: branches */
+brc_buffer *brc_offset_of(const brc_simulation *s);    /* dlsm: d, times the neighbour's part; others: branches */
 brc_buffer *brc_ratio_of(const brc_simulation *s);     /* dlsm: q; cbm: 1/length */
 brc_buffer *brc_beam_array_of(const brc_simulation *s);
 brc_buffer *brc_partial_of(const brc_simulation *s); /* block sums */

@@ -342,12 +342,12 @@ static brc_status tell_dynamic_stage(brc_context *context, const brc_scene *scen
 {
     BRC_TRY(find_free_motions(context, scene, stage, d, p));
     memset(p->spread, 0, (size_t)p->n * sizeof *p->spread);
-    for (int64_t e = 0; e < d->n_elements; ++e)
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        const double mass = mass_of(scene, d, e), *centre = p->free[p->of[e]].centre, *place = d->position + 3 * e;
         for (int r = 0; r < 3; ++r)
             for (int c = 0; c < 3; ++c)
-                p->spread[p->of[e]][r][c] += mass_of(scene, d, e) *
-                                             (d->position[3 * e + r] - p->free[p->of[e]].centre[r]) *
-                                             (d->position[3 * e + c] - p->free[p->of[e]].centre[c]);
+                p->spread[p->of[e]][r][c] += mass * (place[r] - centre[r]) * (place[c] - centre[c]);
+    }
     for (int64_t i = 0; i < p->n; ++i)
         if (p->free[i].n > 0 && p->size[i] > 1) tell_turning(context, scene, stage, d, p, i);
     return BRC_OK;
@@ -369,13 +369,14 @@ static brc_status tell_stage(brc_context *context, const brc_scene *scene, const
     return BRC_OK;
 }
 
-/* A dynamic stage with forces and nothing else that may hold a body. */
+/* A dynamic stage with forces, of bodies that neither strikers nor each other may hold by contact. */
 static bool presses_freely(const brc_scene *scene, const brc_stage *stage)
 {
     bool some = false;
     for (int32_t l = 0; l < stage->n_loads; ++l)
         some = some || is_force(&stage->loads[l]);
-    return some && stage->solver == BRC_SOLVER_DYNAMIC && scene->n_strikers == 0;
+    return some && stage->solver == BRC_SOLVER_DYNAMIC && scene->n_strikers == 0 &&
+           !(scene->has_contact && scene->n_bodies > 1);
 }
 
 brc_status brc_free_bodies_tell(brc_context *context, const brc_scene *scene, const brc_domain *domain, bool all)

@@ -12,7 +12,7 @@
 const char *brc_free_motions_text(const brc_free_motions *free, char *out, size_t room);
 /* Log what the static stages of a scene of one model leave free, body by body and parts that no bond joins apart: a
  * warning where loads push there, with the cure; where none does, one line for information if all are asked for. And
- * a warning of dynamic stages whose forces press a body that nothing keeps from turning, where no striker may: forces
+ * a warning of dynamic stages whose forces press a body that nothing keeps from turning, where no contact may: forces
  * are dead, so that a turn grows. BRC_NO_MEMORY. */
 brc_status brc_free_bodies_tell(brc_context *context, const brc_scene *scene, const brc_domain *domain, bool all);
 

@@ -144,7 +144,7 @@ static double least_stiffness(bench_case *c, const double young[2])
 }
 
 /* Layers of a stiff and a soft material, in cells so uneven that a soft cell's gradient reaches far into the faces of
- * its stiff neighbours: with the mean of both on such a face the least of these is -70. */
+ * its stiff neighbours: with the mean of both on such a face the least of these is -85. */
 static void stiffness_of_stiff_and_soft_layers_is_positive(void **state)
 {
     (void)state;
