@@ -14,7 +14,7 @@
 
 enum {
     ROUNDS = 9,
-    MOST_VARIANTS = 9,
+    MOST_VARIANTS = 10,
     TRIAL_STEPS = 10,
     N_TRIALS = 3,
     WARM_STEPS = 3,
@@ -26,6 +26,8 @@ enum {
 static const double strength = 1e8;
 /* Share of the bonds that break in a trial step. */
 static const double trial_rate = 1e-3;
+/* As much faster flies apart what is to swing below limits of shear. */
+static const double swing = 100;
 
 /* An effect. rate: share of the bonds that break, or faces that open, in each step; bound: asked for, over the
  * elastic step, 0: none. */
@@ -35,16 +37,18 @@ typedef struct effect {
     double rate, bound;
     int64_t most_steps; /* of a sample: the rate holds for some dozens of steps */
     bool cracks;        /* bonds break along three planes (crack_factors.h), else anywhere */
+    bool shears;        /* limits of shear, too, which the cube stays below as it swings, pulled and pressed */
 } effect;
 static const effect effects[] = {
-    {"elastic, again", false, false, false, 0, 0, INT64_MAX, false},
-    {"fracture, nothing breaks", true, false, false, 0, 1.15, INT64_MAX, false},
-    {"fracture, 1 % of the bonds break in 100 steps", true, false, false, 1e-4, 1.3, 10, false},
-    {"the same along three cracks that run", true, false, false, 1e-4, 1.3, 10, true},
-    {"fracture, 1 % of the bonds break in every step", true, false, false, 1e-2, 0, 2, false},
-    {"fracture energy, no face open", true, false, true, 0, 0, INT64_MAX, false},
-    {"fracture energy, 1 % of the faces open in 100 steps", true, false, true, 1e-4, 0, 10, false},
-    {"contact, nothing near", false, true, false, 0, 1.05, INT64_MAX, false}};
+    {"elastic, again", false, false, false, 0, 0, INT64_MAX, false, false},
+    {"fracture, nothing breaks", true, false, false, 0, 1.15, INT64_MAX, false, false},
+    {"fracture, 1 % of the bonds break in 100 steps", true, false, false, 1e-4, 1.3, 10, false, false},
+    {"the same along three cracks that run", true, false, false, 1e-4, 1.3, 10, true, false},
+    {"fracture, 1 % of the bonds break in every step", true, false, false, 1e-2, 0, 2, false, false},
+    {"fracture energy, no face open", true, false, true, 0, 0, INT64_MAX, false, false},
+    {"fracture energy, 1 % of the faces open in 100 steps", true, false, true, 1e-4, 0, 10, false, false},
+    {"fracture energy with limits of shear, no face open", true, false, true, 0, 0, INT64_MAX, false, true},
+    {"contact, nothing near", false, true, false, 0, 1.05, INT64_MAX, false, false}};
 enum { N_EFFECTS = sizeof effects / sizeof effects[0] };
 
 /* A simulation of the cube that is stepped. */
@@ -130,6 +134,10 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
         v->cube.scene.fracture =
             (brc_fracture){.level = 1, .closure = true, .side_friction = -1}; /* as scenes have it */
         m->tension = rate > 0 ? strength : 1e6 * strength;
+        if (e->shears) {
+            v->cube.scene.fracture.kind = BRC_CRITERION_MOHR_COULOMB;
+            v->cube.scene.fracture.cohesion = 2.5 * strength, v->cube.scene.fracture.friction = acos(sqrt(0.75));
+        }
         if (rate > 0)
             m->scatter = (brc_scatter){.kind = e->cracks ? BRC_SCATTER_FILE : BRC_SCATTER_WEIBULL, .modulus = 1};
         if (e->cracks) {
@@ -152,7 +160,7 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
     const double three_bulk = m->young / (1 - 2 * m->poisson), dt = brc_simulation_time_step(v->simulation).value;
     const double gradient = (rate > 0 ? rate : trial_rate) * scale * strength / three_bulk / dt;
     for (int64_t k = 0; k < 3 * domain->n_elements; ++k)
-        velocity[k] = gradient * (domain->position[k] - 0.5);
+        velocity[k] = (e->shears ? swing : 1) * gradient * (domain->position[k] - 0.5);
     status = brc_simulation_set_state(v->simulation, NULL, velocity);
 cleanup:
     if (m->scatter.file[0]) remove(m->scatter.file);
@@ -285,7 +293,7 @@ static brc_status measure_model(brc_context *context, const brc_effects_request 
                                 brc_rows *rows)
 {
     brc_status status = BRC_OK;
-    static const effect elastic = {"elastic", false, false, false, 0, 0, INT64_MAX, false};
+    static const effect elastic = {"elastic", false, false, false, 0, 0, INT64_MAX, false, false};
     brc_domain *domain = NULL;
     variant base = {0}, *v = NULL;
     const effect *which[MOST_VARIANTS];

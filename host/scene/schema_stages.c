@@ -394,7 +394,7 @@ static const brc_entry STATIC[] = {
     {"events", BRC_TYPE_STRUCT, .section = &EVENTS_SECTION,
      .meaning = "bonds break one event after the other; left out: none breaks"},
     {"finite_strain", BRC_TYPE_BOOL, FIELD(brc_stage, finite_strain), .given = "true",
-     .meaning = "false: only the law linearised about the reference"},
+     .meaning = "false: only the law linearised about the reference, for small turns"},
 };
 static const brc_section STATIC_SECTION = {
     .title = "solver static", .meaning = "Elastic equilibrium.", ENTRIES(STATIC)};

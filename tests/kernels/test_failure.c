@@ -166,7 +166,10 @@ static void the_quick_test_overlooks_no_failure(void **state)
                 kept += !possible;
             }
     }
-    assert_true(failed > STATES && kept > STATES); /* both happen */
+    assert_true(failed > STATES && kept > STATES);                       /* both happen */
+    const failure_stress pressed = {-100, -100.5, -99.5, 0.1, 0.1, 0.1}; /* pressure alone fails by no shear */
+    assert_false(failure_possible(pressed, (failure_limits){0, 0, 1.1}, (failure_shear){0, 0.4, 0.4}));
+    assert_false(failure_possible(pressed, (failure_limits){0, 0, 1.1}, (failure_shear){1, 0.2, 0.4}));
 }
 
 int main(void)

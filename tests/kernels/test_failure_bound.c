@@ -103,6 +103,26 @@ static void it_is_exact_in_uniaxial_tension_and_close_in_shear(void **state)
     assert_true(failure_bound((lane_sym3){-1e6, -1e6, -1e6, 0, 0, 0}, scale) == 0);
 }
 
+/* Outer principal values from above, within 2e-5 of 2 sqrt(J2/3). Rounding: 1e-12 of the tensor's own size; and where
+ * two values are nearly equal, c is off by some 1e-15 of the size over the deviator, y by the root of that. */
+static void outer_values_are_bounded_closely(void **state)
+{
+    (void)state;
+    for (int i = 0; i < STATES; ++i) {
+        lane_sym3 s = random_stress(i);
+        if (i % 3 == 0) s = (lane_sym3){s.xx, s.xx, s.zz, 0, 0, 0}; /* two are equal */
+        const failure_principal p = failure_principal_of((failure_stress){s.xx, s.yy, s.zz, s.yz, s.xz, s.xy});
+        const failure_outer of = failure_outer_of(s);
+        const double a = p.first - p.second, b = p.second - p.third, c = p.first - p.third,
+                     root = 2 * sqrt((a * a + b * b + c * c) / 18), most = fmax(fabs(p.first), fabs(p.third)),
+                     size = 1e-12 * most + sqrt(1e-15 * most * root);
+        assert_true(of.first >= p.first - size && of.first <= p.first + 2e-5 * root + size);
+        assert_true(of.third >= -p.third - size && of.third <= -p.third + 2e-5 * root + size);
+    }
+    const failure_outer none = failure_outer_of((lane_sym3){0, 0, 0, 0, 0, 0});
+    assert_true(none.first == 0 && none.third == 0);
+}
+
 /* What fracture_spared relies on: lambda is above s1, and x.A x between a1 cos^2 and a1 cos^2 + slack, with a1 of the
  * principal values. Entries of A are of up to 16 sizes, of which sums of some 20 products keep 1e-13; a1 is a
  * difference of values that are right to 1e-15 of the size, times another of up to 4. Most states have values far
@@ -153,6 +173,7 @@ int main(void)
         cmocka_unit_test(no_ratio_is_above_its_bound),
         cmocka_unit_test(the_mean_of_bounds_bounds_the_mean),
         cmocka_unit_test(it_is_exact_in_uniaxial_tension_and_close_in_shear),
+        cmocka_unit_test(outer_values_are_bounded_closely),
         cmocka_unit_test(the_share_of_a_direction_lies_between_its_bounds),
         cmocka_unit_test(of_equal_largest_values_no_direction_is_told_from_another),
     };

@@ -71,6 +71,7 @@ static void a_pull_is_that_of_the_pulling_parts_over_the_projection(void **state
         } else {
             assert_true(fabs(drawn - pull / cosine) <= 1e-11 * most);
             assert_true(largest <= 0 || drawn * SOFT_DRAWN_LEAST <= largest * (1 + 1e-6));
+            assert_true(drawn <= soft_pull_at_most(at, n) + 1e-11 * most);
             more += drawn > 1.1 * largest;
         }
         assert_true(fabs(soft_pushed(at, axis) - pushed) <= 1e-11 * most * most);

@@ -126,12 +126,13 @@ LAW int failure_possible(failure_stress s, failure_limits limits, failure_shear 
     if (limits.tension > 0 && !failure_all_below(s, REAL(1), near * limits.tension)) return 1;
     if (limits.compression > 0 && !failure_all_below(s, REAL(-1), near * limits.compression)) return 1;
     if (limits.shear > 0) {
-        const coeff square =
-            s.xx * s.xx + s.yy * s.yy + s.zz * s.zz + REAL(2) * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
-        /* |sigma_I -+ sigma_III| <= sqrt 2 |sigma|; sqrt J2 <= |sigma| / sqrt 2, I1 <= sqrt 3 |sigma| */
-        const coeff reach =
-            shear.drucker_prager ? REAL(0.7072) + REAL(1.7321) * shear.slope : REAL(1.4143) * (REAL(1) + shear.slope);
-        if (reach * reach * square >= near * near * limits.shear * limits.shear) return 1;
+        const coeff mean = REAL(0.33333333333333333) * (s.xx + s.yy + s.zz), xx = s.xx - mean, yy = s.yy - mean,
+                    zz = s.zz - mean; /* of the deviator, sigma_I - sigma_III + a (sigma_I + sigma_III) is at most */
+        const coeff square =          /* sqrt(2 + 2 a^2 / 3) times the size, and sqrt J2 is sqrt(1/2) of it */
+            xx * xx + yy * yy + zz * zz + REAL(2) * (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
+        const coeff times = shear.drucker_prager ? REAL(0.5) : REAL(2) + REAL(0.6667) * shear.slope * shear.slope,
+                    along = shear.drucker_prager ? REAL(3) * shear.slope * mean : REAL(2) * shear.slope * mean;
+        if (SQRT(times * square) + along >= near * limits.shear) return 1;
     }
     return 0;
 }

@@ -50,4 +50,35 @@ LAW lane failure_bound(lane_sym3 stress, failure_scale scale)
     return bound * (REAL(1) / unit);
 }
 
+/* The largest principal value, and minus the smallest, from above by at most 2e-5 of 2 sqrt(J2/3) (and what the padding
+ * adds where two values are equal, its root times that). The largest root of the deviator is 2 sqrt(J2/3)
+ * cos(acos(c)/3), c = J3 / (2 (J2/3)^(3/2)), a smooth function of y = sqrt((1 + c)/2): cos(2 acos(y)/3), by a
+ * polynomial from above; the other outer value by -c. Not sublinear. Any unit. */
+typedef struct {
+    lane first, third;
+} failure_outer;
+LAW lane failure_root(lane y)
+{
+    return REAL(0.5000167) +
+           y * (REAL(0.5768829) + y * (REAL(-0.1068391) + y * (REAL(0.03889836) - REAL(0.00895875) * y)));
+}
+LAW failure_outer failure_outer_of(lane_sym3 s)
+{
+    const lane middle = LANE_ZERO + REAL(0.5), zero = LANE_ZERO,
+               pad = LANE_ZERO + (BRC_PRECISION == 0 ? REAL(1e-12) : REAL(1e-6));
+    const lane mean = REAL(0.33333333333333333) * lane_sym3_trace(s);
+    const lane xx = s.xx - mean, yy = s.yy - mean, zz = s.zz - mean;
+    const lane j2 = middle * (xx * xx + yy * yy + zz * zz) + (s.yz * s.yz + s.xz * s.xz + s.xy * s.xy);
+    const lane j3 = xx * (yy * zz - s.yz * s.yz) - s.xy * (s.xy * zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - yy * s.xz);
+    const lane start = LANE_SQRT(REAL(1.3333333333333333) * j2);
+    const lane c = REAL(2) * j3 / (start * start * start + REAL(1e-30)); /* a half of it; nothing over nothing is 0 */
+    return (failure_outer){mean + start * failure_root(LANE_SQRT(lane_max(middle + c, zero) + pad)),
+                           start * failure_root(LANE_SQRT(lane_max(middle - c, zero) + pad)) - mean};
+}
+/* Of sigma_I - sigma_III + slope (sigma_I + sigma_III), Mohr and Coulomb's sum. */
+LAW lane failure_slip_bound(failure_outer of, coeff slope)
+{
+    return (REAL(1) + slope) * of.first + (REAL(1) - slope) * of.third;
+}
+
 #endif

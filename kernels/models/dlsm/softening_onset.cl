@@ -30,11 +30,11 @@ LAW coeff soft_edge(soft_vector uneven, soft_vector apart, soft_vector force, so
 }
 
 /* 0: the bond stays shut, known without principal values: none of its stress is above the limit, nor its edge's, and no
- * plane slides (sums of Mohr and Coulomb, on the face or any plane, are at most 2 (1 + slope) times the norm). limit,
- * shear_limit: as much of the bond's as counts [Pa]; shear_limit 0: none slides. */
+ * plane slides, nor the face (whose sum of Mohr and Coulomb is at most that of all planes). limit, shear_limit: as much
+ * of the bond's as counts [Pa]; shear_limit 0: none slides. */
 LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shear_limit, coeff slope)
 {
-    const coeff shear = REAL(0.5) * SOFT_ABS(shear_limit);
+    const coeff shear = SOFT_ABS(shear_limit);
     return !(edge < REAL(0.999) * limit) ||
            failure_possible(stress, (failure_limits){limit, 0, shear}, (failure_shear){0, slope, slope});
 }
@@ -138,8 +138,17 @@ LAW coeff soft_pull_along(failure_principal at, soft_vector normal, soft_vector 
     const coeff c = soft_dot(normal, axis);
     return SOFT_ABS(c) < SOFT_LEANS ? REAL(0) : pull / c;
 }
-/* Of the largest principal value that is at most 1 / this, (1 + c) / (2 c) at the least cosine c. */
-#define SOFT_DRAWN_LEAST REAL(0.828427)
+/* Of the pull along an axis on the projection of a face, whatever the axis is: at 45 degrees to the normal n all of
+ * what the pulls T lay on the face beside n adds to n.T n. */
+LAW coeff soft_pull_at_most(failure_principal at, soft_vector normal)
+{
+    const soft_cosines n = soft_cosines_of(at, normal);
+    const coeff one = failure_larger(at.first, 0) * n.first, two = failure_larger(at.second, 0) * n.second,
+                three = failure_larger(at.third, 0) * n.third;
+    const coeff across = one * n.first + two * n.second + three * n.third,
+                beside = one * one + two * two + three * three - across * across;
+    return across + SQRT(failure_larger(beside, 0));
+}
 /* Square of what the pushes at a face lay on the plane across an axis [Pa^2]. */
 LAW coeff soft_pushed(failure_principal at, soft_vector axis)
 {
@@ -186,8 +195,9 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
     const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
     const coeff most = share * limit[entry];
-    const coeff drawn =
-        soft_bridges(now.mean, most)
+    const coeff drawn = /* only where it may be more than both */
+        soft_pull_at_most(largest, normal) < REAL(0.999) * failure_larger(most, largest.first) ||
+                soft_bridges(now.mean, most)
             ? REAL(0)
             : soft_drawn(soft_add_around(now.mean, e, row_start, neighbour, gradient, stress), largest, normal, most);
     const coeff first = failure_larger(largest.first, drawn);
@@ -220,7 +230,7 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
 /* Whole bonds whose largest principal stress, or what draws them open, is above share * limit and that stand across it
  * (the cosine of normal and axis is at least steepest) are marked SOFT_WISH, measure: that stress. Elements without
  * open faces whose own stress is well below the limit of their weakest bond do not look (soft_looking); shear_least:
- * norm below which no face slides [Pa]. found [n]. */
+ * the smallest limit of shear [Pa]. found [n]. */
 KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, int shears, coeff slope,
                        coeff shear_least, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, GATHER(int) n_open,
                        OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
@@ -233,7 +243,7 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
         const lane_mat3 h = lane_gather9(gradient, who.own), p = lane_gather9(stress, who.own);
         const lane_sym3 own = soft_present_stress(h, p);
         const soft_members which =
-            soft_looking(who, h, p, own, share, screen, shears ? shear_least : CELLS_NEVER, n_open, least);
+            soft_looking(who, h, p, own, share, screen, shears, slope, shear_least, n_open, least);
         const dlsm_end end = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
         if (which.looking) members_later(who, gradient, 9, ahead), members_later(who, stress, 9, ahead);
         if (which.looking) members_later(who, flux, 9, ahead);
@@ -246,8 +256,8 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
                                                 displacement, flux, bond_part, one_plus_tau, modulus);
             const lane_mat3 beside = lane_gather9(gradient, j);
             const soft_bounds below = {SOFT_DRAWN_LEAST * share * members_row1(who, limit, slot),
-                                       shears ? share * soft_half_of(members_row1(who, shear_limit, slot)) : LANE_ZERO,
-                                       shears ? REAL(1.4143) * (REAL(1) + slope) : REAL(0), steepest};
+                                       shears ? share * soft_size_of(members_row1(who, shear_limit, slot)) : LANE_ZERO,
+                                       shears, slope, steepest};
             int near = soft_near(lane_mat3_add(h, beside),
                                  lane_sym3_add(own, soft_present_stress(beside, lane_gather9(stress, j))), pull, below),
                 both = 0;

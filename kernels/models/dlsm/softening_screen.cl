@@ -22,15 +22,20 @@ LAW lane soft_room_below(lane_sym3 s, lane limit)
 
 /* Elements look that have open faces, or whose largest principal stress and a part of the norm of the stress, by which
  * that of their bonds may differ, are above the limit of their weakest bond: that part counts as much as makes a pull
- * look from screen * limit on. Or that may slide: from screen * weakest on. */
+ * look from screen * limit on. Or, where there are limits of shear, whose sum of Mohr and Coulomb and what that part
+ * adds to it at most, sqrt(2 + 2 slope^2) of it, are above the weakest of these, `weakest` [Pa]. */
 LAW soft_members soft_looking(members who, lane_mat3 gradient, lane_mat3 stress, lane_sym3 present, coeff share,
-                              coeff screen, coeff weakest, OWN(int) n_open, OWN(coeff) least)
+                              coeff screen, int shears, coeff slope, coeff weakest, OWN(int) n_open, OWN(coeff) least)
 {
     const lane norm = LANE_SQRT(soft_square(stress)) * (REAL(1) + LANE_SQRT(soft_square(gradient)));
     const lane limit = share * members_number(who, least), per = REAL(1) / limit; /* no limit, 1e30 Pa */
     const lane_sym3 part = lane_sym3_scale_shift(per, present, LANE_ZERO);
-    const lane room = lane_min(soft_room_below(part, REAL(1) - (REAL(1) / screen - REAL(1)) * per * norm),
-                               LANE_ZERO + screen * share * weakest - norm);
+    const lane apart = (REAL(1) / screen - REAL(1)) * per * norm;
+    lane room = soft_room_below(part, REAL(1) - apart);
+    if (shears) {
+        const lane sum = failure_slip_bound(failure_outer_of(part), slope);
+        room = lane_min(room, share * weakest * per - (sum + SQRT(REAL(2) + REAL(2) * slope * slope) * apart));
+    }
     soft_members out = {0, 0};
 #define LOOKING(l)                                                                                                     \
     out.open |= (n_open[LANE_ITEM(who.own, l)] > 0) << 0x##l;                                                          \
@@ -47,14 +52,15 @@ LAW lane_sym3 soft_present_stress(lane_mat3 gradient, lane_mat3 stress)
     return lane_mat3_sym(lane_mat3_add(stress, lane_mat3_mul(stress, lane_mat3_transpose(gradient))));
 }
 
-/* Half of a limit of shear, which is below 0 along interfaces. */
-LAW lane soft_half_of(lane shear_limit) { return REAL(0.5) * lane_max(shear_limit, -shear_limit); }
+/* Size of a limit of shear, which is below 0 along interfaces. */
+LAW lane soft_size_of(lane shear_limit) { return lane_max(shear_limit, -shear_limit); }
 
-/* Of the bonds in a slot: limit of the largest principal stress [Pa]; no plane slides where reach times the norm is
- * below shear [Pa] (reach 0: none slides at all); least cosine of the normal to the axis of a tension that opens. */
+/* Of the bonds in a slot: limit of the largest principal stress, and of Mohr and Coulomb's sum, with its slope, where
+ * `shears` [Pa]; least cosine of the normal to the axis of a tension that opens. */
 typedef struct {
     lane limit, shear;
-    coeff reach, steepest;
+    int shears;
+    coeff slope, steepest;
 } soft_bounds;
 
 /* Of a bond: its normal in the present frame, and 1 / (area limit) [1/N]. */
@@ -81,6 +87,19 @@ LAW int soft_short_of(lane room)
     return out;
 }
 
+/* Of the largest principal value of a bond that soft_drawn draws open, at most 1 / this: (1 + c) / (2 c) at the least
+ * cosine c. */
+#define SOFT_DRAWN_LEAST REAL(0.828427)
+/* What draws a bond open at most, of any axis around (soft_pull_at_most): with T the pulls of the stress,
+ * n.T n + |T n - (n.T n) n|, and as T is at most `first`, |T n|^2 is at most first n.T n. across: n.stress n, less than
+ * n.T n by the pushes on n, at most `third`; all in one unit. */
+LAW lane soft_drawn_bound(lane first, lane third, lane across)
+{
+    const lane zero = LANE_ZERO, n = lane_max(lane_min(first, across + lane_max(third, zero)), zero);
+    return LANE_WHERE(LANE_LESS(n, REAL(0.8535) * first), n + LANE_SQRT(lane_max(n * (first - n), zero)),
+                      REAL(1.2072) * first);
+}
+
 /* Bits of the bonds in a slot whose stress (soft_stress: the mean of the cells' with the traction of the bond) may be
  * above a limit. By tension alone it is not where the traction, sum of s_k c_k e_k over the principal axes, whose
  * cosines with the normal are c_k, is below steepest times the limit: then s1 c1 is. gradient, stress: sums over the
@@ -99,14 +118,23 @@ LAW int soft_near(lane_mat3 gradient, lane_sym3 stress, dlsm_pull pull, soft_bou
                zz = mean.zz + REAL(2) * m.z * n.z, yz = mean.yz + m.y * n.z + m.z * n.y,
                xz = mean.xz + m.x * n.z + m.z * n.x, xy = mean.xy + m.x * n.y + m.y * n.x;
     const coeff near = REAL(0.998);
-    lane room = soft_room_below((lane_sym3){xx, yy, zz, yz, xz, xy}, LANE_ZERO + near); /* failure_all_below */
-    if (below.reach > 0) {
-        const lane square = xx * xx + yy * yy + zz * zz + REAL(2) * (yz * yz + xz * xz + xy * xy);
-        room = lane_min(room, near * per * below.shear - below.reach * LANE_SQRT(square));
+    const lane_sym3 all = {xx, yy, zz, yz, xz, xy};
+    lane room = soft_room_below(all, LANE_ZERO + near);
+    const lane slide = near * per * below.shear;
+    if (below.shears) {
+        const lane even = REAL(0.33333333333333333) * lane_sym3_trace(all), left = slide - REAL(2) * below.slope * even;
+        const lane_sym3 part = {xx - even, yy - even, zz - even, yz, xz, xy};
+        const coeff most = REAL(2) + REAL(0.6667) * below.slope * below.slope; /* as failure_possible */
+        room = lane_min(lane_min(room, left), left * left - most * lane_sym3_dot(part, part));
     } else {
         const coeff least = near * below.steepest;
         room = lane_max(room, least * least - over * over * lane_vec3_dot(pull.force, pull.force));
     }
+    if (!LANE_ANY_SHORT(room, LANE_ZERO)) return 0;
+    const failure_outer of = failure_outer_of(all); /* of few */
+    const lane drawn = soft_drawn_bound(of.first, of.third, over * lane_vec3_dot(pull.force, n));
+    const lane pulls = near * (REAL(1) / SOFT_DRAWN_LEAST) - lane_max(of.first, drawn);
+    room = lane_max(room, below.shears ? lane_min(pulls, slide - failure_slip_bound(of, below.slope)) : pulls);
     return soft_short_of(room);
 }
 

@@ -32,16 +32,36 @@ brc_status brc_crack_lengths_find(brc_simulation *s, const brc_strengths *streng
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         if (!(strengths->energy[b] > 0) || !(strengths->tension[b] > 0)) continue;
         const int64_t h = d->bond_half_edge[b], i = d->neighbour[d->twin[h]], j = d->neighbour[h];
-        const double young =
-            fmin(s->elastic[s->material_of_element[i]].young, s->elastic[s->material_of_element[j]].young);
-        const double ratio = young * strengths->energy[b] / (strengths->tension[b] * strengths->tension[b]) /
-                             (0.5 * (size_of(d, i) + size_of(d, j)));
+        const int32_t one = s->material_of_element[i], other = s->material_of_element[j],
+                      softer = s->elastic[one].young < s->elastic[other].young ? one : other;
+        const double length = s->elastic[softer].young * strengths->energy[b] /
+                              (strengths->tension[b] * strengths->tension[b]),
+                     ratio = length / (0.5 * (size_of(d, i) + size_of(d, j)));
+        if (one != other && ratio < 1 && !strengths->joint[b] &&
+            !brc_material_breaks(s->scene, s->scene->model.kind, &s->scene->materials[softer])) {
+            if (out->n_lent++ == 0 || length < out->lent)
+                out->lent = length, out->softer = softer, out->lender = softer == one ? other : one;
+            continue;
+        }
         for (int k = 0; k < 3; ++k)
             out->n_below[k] += ratio < bound[k];
         out->ratio[out->n++] = ratio;
     }
     if (out->n > 0) qsort(out->ratio, (size_t)out->n, sizeof *out->ratio, ascending);
     return BRC_OK;
+}
+
+void brc_crack_lengths_tell(brc_simulation *s, const brc_crack_lengths *l)
+{
+    if (l->n_lent == 0) return;
+    const char *lender = s->scene->materials[l->lender].name, *softer = s->scene->materials[l->softer].name;
+    brc_log(
+        s->context, BRC_LOG_WARNING,
+        "fracture_energy: %lld bonds between '%s' and the softer '%s', which has no strength, bear as much as '%s' and "
+        "open at once: E G_c / sigma_f^2 is %.2g mm there; give the joint a tension and a fracture energy of its own, "
+        "as in `interactions: {interfaces: [{materials: {first: %s, second: %s, tension: ..., fracture_energy: "
+        "...}}]}`",
+        (long long)l->n_lent, lender, softer, lender, 1e3 * l->lent, lender, softer);
 }
 
 void brc_crack_lengths_free(brc_crack_lengths *lengths)

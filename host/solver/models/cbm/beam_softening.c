@@ -70,6 +70,7 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
                 "use spheres of %.3g mm in diameter (they are of %.3g mm) or a lower strength",
                 least_diameters, (long long)l.n_below[0], (long long)l.n, l.ratio[0],
                 1e3 * brc_crack_lengths_size(&l, least_diameters), 1e3 * l.size);
+    brc_crack_lengths_tell(s, &l);
     brc_crack_lengths_free(&l);
     return brc_crack_range_tell(s, "spheres");
 }

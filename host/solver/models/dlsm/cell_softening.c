@@ -42,7 +42,7 @@ struct brc_softening_faces {
     brc_scan_kernels scan;
     brc_buffer *shear_limit;  /* [n_slots][C] scenes whose faces slide: 2 c cos phi of the bond [Pa] */
     brc_buffer *shear_energy; /* [n_slots][C] and G_II S [J] */
-    double shear_least;       /* no face slides where the norm of the stress is below [Pa] */
+    double shear_least;       /* the smallest limit of shear [Pa] */
     brc_buffer *rubbed;       /* [n_rows] energy lost to friction between the sides of broken faces [J] */
     brc_ring_list around;     /* cells with open faces, for the sweeps */
     bool any;                 /* some face has opened */
@@ -137,6 +137,7 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
                 "bears some 5 to 11 %% too much; use cells of %.3g mm where that matters (they are of %.3g mm)",
                 2 * least_cells, (long long)l.n_below[1], (long long)l.n,
                 1e3 * brc_crack_lengths_size(&l, 2 * least_cells), 1e3 * l.size);
+    brc_crack_lengths_tell(s, &l);
     brc_crack_lengths_free(&l);
     return brc_crack_range_tell(s, "cells");
 }
@@ -170,8 +171,6 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
     const brc_domain *d = s->domain;
     const int64_t n_entries = layout->n_slots * layout->slice;
     const double whole = 2 * s->scene->fracture.cohesion * cos(s->scene->fracture.friction);
-    const double reach = 2 * (1 + sin(s->scene->fracture.friction)); /* 2 cos |tau| + 2 sin sigma_n, and Mohr-Coulomb's
-                                                                        sum, are at most this times the norm */
     if (!f->shear_limit) return BRC_OK;
     f->shear_least = INFINITY;
     BRC_LOCAL(s->context, n_entries, double, limit, "limits of shear");
@@ -179,7 +178,7 @@ static brc_status upload_shear(brc_simulation *s, softening_faces *f, const brc_
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
-        f->shear_least = fmin(f->shear_least, whole * strengths->factor[d->bond[h]] / reach);
+        f->shear_least = fmin(f->shear_least, whole * strengths->factor[d->bond[h]]);
         if (!brc_domain_has(d, d->neighbour[d->twin[h]])) continue;
         limit[k] = (strengths->joint[d->bond[h]] ? -whole : whole) * strengths->factor[d->bond[h]];
         energy[k] = strengths->shear_energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);

@@ -91,6 +91,36 @@ static void thin_bodies_and_short_cracks_are_warned_of_with_the_size_wanted(void
     "}}\n  steel: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3}"
 #define HALF "    regions: [{material: steel, where: {half_space: {point: [0.5 m, 0, 0], normal: [1, 0, 0]}}}]\n"
 
+/* Glass with a film: the strength of the one over the stiffness of the other is no length that cells could have, so it
+ * is told with its cure and counts for no size that is wanted; stiffer neighbours count. */
+static void a_soft_film_asks_for_no_cells_of_its_own(void **state)
+{
+    (void)state;
+    static const char
+        film[] = "\n  film: {E: 1e-3 Pa, nu: 0.2, density: 1 kg/m^3}",
+        wall[] = "\n  film: {E: 1e3 Pa, nu: 0.2, density: 1 kg/m^3}",
+        half[] = "    regions: [{material: film, where: {half_space: {point: [0.5 m, 0, 0], normal: [1, 0, 0]}}}]\n";
+    char both[256];
+    snprintf(both, sizeof both, "%s%s", SOFT("2e-6"), film);
+    const char *said =
+        told_of((case_options){.materials = both, .sets = CELLS_FRACTURE, .fill = GRID("8, 8, 8"), .regions = half});
+    expect(said,
+           "64 bonds between 'stone' and the softer 'film', which has no strength, bear as much as 'stone' and open at "
+           "once: E G_c / sigma_f^2 is 2 mm there; give the joint a tension and a fracture energy of its own, as in "
+           "`interactions: {interfaces: [{materials: {first: stone, second: film");
+    assert_null(strstr(said, "use cells of"));
+    said = told_of((case_options){.materials = both,
+                                  .sets = CELLS_FRACTURE
+                                  "interactions: {interfaces: [{materials: {first: stone, second: film, "
+                                  "tension: 1e-5 Pa, fracture_energy: 2e-6 J/m^2}}]}\n",
+                                  .fill = GRID("8, 8, 8"),
+                                  .regions = half});
+    assert_null(strstr(said, "softer"));
+    snprintf(both, sizeof both, "%s%s", SOFT("2e-6"), wall);
+    said = told_of((case_options){.materials = both, .sets = CELLS_FRACTURE, .fill = GRID("8, 8, 8"), .regions = half});
+    assert_null(strstr(said, "softer"));
+}
+
 /* Of a body whose half x > 0.5 m has no strength: bonds that broke with a side of stone, and with none. */
 static void count_sides(bench_case *c, int64_t *stone, int64_t *steel)
 {
@@ -160,6 +190,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ranges_name_the_cells_they_want),
+        cmocka_unit_test(a_soft_film_asks_for_no_cells_of_its_own),
         cmocka_unit_test(thin_bodies_and_short_cracks_are_warned_of_with_the_size_wanted),
         cmocka_unit_test(materials_without_a_strength_do_not_break_in_any_model_of_cells),
         cmocka_unit_test(bonds_that_never_break_imply_no_fracture_energy),
