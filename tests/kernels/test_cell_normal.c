@@ -57,7 +57,34 @@ static double half_stress(const half_bond *b)
 {
     const double inverse = cell_inverse_square(b->branch);
     return cell_half_stress(b->gradient, b->stress, lambda + 2 * mu, b->branch,
-                            cell_bond_strain(b->branch, b->jump, inverse), inverse);
+                            cell_bond_strain(b->branch, b->jump, inverse, 1), inverse, 1);
+}
+static double linear_half_stress(const half_bond *b)
+{
+    const double inverse = cell_inverse_square(b->branch);
+    return cell_half_stress(b->gradient, b->stress, lambda + 2 * mu, b->branch,
+                            cell_bond_strain(b->branch, b->jump, inverse, 0), inverse, 0);
+}
+
+/* By the linearised law: what a turn w x adds to gradient and jump changes nothing but the last digits of it, times
+ * lambda + 2 mu; and where nothing turns, so that strains are all there is, the full law is off by their square, some
+ * ten products of entries below 1.5 strains each. */
+static void small_turns_change_no_linear_stress(void **state)
+{
+    (void)state;
+    for (int k = 0; k < STATES; ++k) {
+        half_bond b = random_half(3 * k); /* not turned */
+        b.stress = push_forward(b.gradient, svk_stress(green_strain(b.gradient, 0), lambda, mu), 0);
+        const double before = linear_half_stress(&b);
+        half_bond full = b;
+        full.stress = push_forward(b.gradient, svk_stress(green_strain(b.gradient, 1), lambda, mu), 1);
+        assert_true(fabs(half_stress(&full) - before) < 100 * (lambda + 2 * mu) * b.strain * b.strain);
+        const lane_vec3 w = {uniform(k, 70), uniform(k, 71), uniform(k, 72)};
+        const lane_mat3 turn = {0, -w.z, w.y, w.z, 0, -w.x, -w.y, w.x, 0};
+        b.gradient = lane_mat3_add(b.gradient, turn);
+        b.jump = lane_vec3_add(b.jump, lane_mat3_mul_vec(turn, b.branch));
+        assert_true(fabs(linear_half_stress(&b) - before) < 1e-14 * (lambda + 2 * mu));
+    }
 }
 
 static double room(const half_bond *b, double limit)
@@ -126,6 +153,7 @@ int main(void)
         cmocka_unit_test(halves_clearly_below_their_limit_have_room),
         cmocka_unit_test(missing_bonds_have_no_room_to_lose),
         cmocka_unit_test(cells_pressed_flat_are_looked_at),
+        cmocka_unit_test(small_turns_change_no_linear_stress),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

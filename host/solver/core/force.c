@@ -17,13 +17,24 @@ brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *r)
     return brc_hook_run(s, BRC_HOOK_BOOK, &(brc_occasion){.request = r});
 }
 
+void brc_force_take_law(brc_simulation *s, const brc_stage *stage)
+{
+    const bool linear = stage->solver == BRC_SOLVER_STATIC && !stage->finite_strain;
+    s->core->constant.finite = !s->scene->model.small_rotations && !linear;
+}
+
+bool brc_force_is_finite(const brc_simulation *s)
+{
+    return s->core->constant.finite;
+}
+
 brc_force_request brc_force_request_of_state(brc_simulation *s, brc_booking book)
 {
     return (brc_force_request){.displacement = brc_displacement_of(s),
                                .force = brc_force_of(s),
                                .orientation = brc_orientation_of(s),
                                .torque = brc_torque_of(s),
-                               .finite = !s->scene->model.small_rotations,
+                               .finite = s->core->constant.finite,
                                .book = book,
                                .t = brc_loads_time(s)};
 }

@@ -184,7 +184,11 @@ typedef struct brc_force_request {
     bool listed_pairs;                /* dlsm: of the pairs of surfaces those of brc_contact_list_around alone */
 } brc_force_request;
 brc_status brc_force_evaluate(brc_simulation *s, const brc_force_request *request);
-/* The simulation's own state, with the full law, at its time. */
+/* From here on the state is that of this stage: by the full law, or, of a static stage without finite strain (and by a
+ * model with small rotations), by its linearisation about the reference, in forces, energies, strains and stresses. */
+void brc_force_take_law(brc_simulation *s, const brc_stage *stage);
+bool brc_force_is_finite(const brc_simulation *s);
+/* The simulation's own state, with that law, at its time. */
 brc_force_request brc_force_request_of_state(brc_simulation *s, brc_booking book);
 brc_status brc_force_of_state(brc_simulation *s, brc_booking book);
 /* The same where only what broken bonds change is evaluated. */

@@ -182,6 +182,27 @@ static brc_status leave_stage(brc_simulation *s)
     return brc_hook_run(s, BRC_HOOK_LEAVE, NULL);
 }
 
+/* The next stage goes by the full law and the present one by the linearised, or the other way round: parts that turned
+ * far are strained by one and not by the other. */
+static brc_status take_law(brc_simulation *s, const brc_stage *next, const brc_ledger *before)
+{
+    static const double much = 0.01; /* of the energy; strains alone, of 0.1 % at most where things break, are below */
+    static const double rounding = 1e-9; /* of the most that the body ever held */
+    const bool was_finite = brc_force_is_finite(s);
+    brc_ledger after;
+    brc_force_take_law(s, next);
+    if (was_finite == brc_force_is_finite(s)) return BRC_OK;
+    BRC_TRY(brc_simulation_ledger(s, &after));
+    const double most = fmax(after.elastic, before->elastic);
+    if (fabs(after.elastic - before->elastic) > much * most && most > rounding * after.peak_elastic)
+        brc_log(s->context, BRC_LOG_WARNING,
+                "stage '%s' begins with an elastic energy of %.3g J where stage '%s' ended with %.3g J: one of them "
+                "has finite_strain: false, and parts of the body turned so far that by the full law they are strained "
+                "otherwise; leave finite_strain out, or load less",
+                next->name, after.elastic, brc_current_stage(s)->name, before->elastic);
+    return BRC_OK;
+}
+
 brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
 {
     if (stage < 0 || stage >= s->scene->n_stages)
@@ -191,6 +212,10 @@ brc_status brc_stage_enter(brc_simulation *s, int32_t stage)
     brc_ledger before = {0};
     if (s->run->stage >= 0) BRC_TRY(brc_simulation_ledger(s, &before));
     s->run->total_before_stage = before.total;
+    if (s->run->stage >= 0)
+        BRC_TRY(take_law(s, next, &before));
+    else
+        brc_force_take_law(s, next);
     BRC_TRY(leave_stage(s));
     s->run->stopped_early = false;
     s->run->stage = -1; /* lists of the next stage are not there yet */

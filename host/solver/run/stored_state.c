@@ -52,6 +52,7 @@ brc_status brc_simulation_load_state(brc_simulation *s, brc_state_store *store)
                         (int)stage, (int)s->scene->n_stages);
     BRC_TRY(brc_hook_run(s, BRC_HOOK_ENTER, &(brc_occasion){.stage = &s->scene->stages[stage]}));
     s->run->stage = stage;
+    brc_force_take_law(s, &s->scene->stages[stage]);
     BRC_TRY(walk(s, store));
     BRC_TRY(brc_force_of_state(
         s, BRC_BOOK_NOTHING)); /* what only it makes; what it makes otherwise than the last step did is filled again */

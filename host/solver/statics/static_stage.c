@@ -159,33 +159,6 @@ static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_sta
     return tell_pause(part[0], increments);
 }
 
-/* What the ledger does not explain [J]. */
-static brc_status unexplained(brc_simulation *s, brc_ledger *ledger, double *out)
-{
-    BRC_TRY(brc_simulation_ledger(s, ledger));
-    *out = ledger->total - ledger->work + ledger->damping - ledger->initial;
-    return BRC_OK;
-}
-
-/* Of a stage by the linearised law: a body that has turned far strains by the full law, which energies, strains,
- * stresses and reactions are read by, and then the work of the loads is not what the body holds. */
-static brc_status warn_of_turns(brc_simulation *s, double before)
-{
-    static const double much = 0.01; /* of the energy; strains alone, of 0.1 % at most where things break, are below */
-    const brc_stage *stage = brc_current_stage(s);
-    brc_ledger ledger;
-    double after;
-    BRC_TRY(unexplained(s, &ledger, &after));
-    const double size = fmax(fabs(ledger.elastic), fabs(ledger.work)), part = fabs(after - before) / size;
-    if (size > 0 && part > much)
-        brc_log(s->context, BRC_LOG_WARNING,
-                "stage '%s': finite_strain: false, and parts of the body turn so far that %.2g %% of the energy is of "
-                "second order: energies, strains, stresses and reactions are wrong by as much, displacements are those "
-                "of the linear law; leave finite_strain out, or load less",
-                stage->name, 100 * part);
-    return BRC_OK;
-}
-
 brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_store *resumed)
 {
     brc_context *context = part[0]->context;
@@ -206,15 +179,9 @@ brc_status brc_statics_run(int32_t n, brc_simulation *const *part, brc_state_sto
                brc_progress_create(context, &progress, stage->name, 0, "iterations", n_bonds / n, "bond updates/s"));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &run, n, "static stage"));
     BRC_TRY_OR(cleanup, begin_runs(n, part, run, resumed));
-    const bool linear = !stage->finite_strain && stage->most_events == 0 && part[0]->model->statics->symmetric &&
-                        !part[0]->scene->model.small_rotations;
-    brc_ledger ledger;
-    double before = 0;
-    if (linear) BRC_TRY_OR(cleanup, unexplained(part[0], &ledger, &before));
     if (!resumed) BRC_TRY_OR(cleanup, brc_notify_sample(part[0]));
     status =
         stage->most_events > 0 ? brc_static_events_run(n, part, run, progress) : run_increments(n, part, run, progress);
-    if (linear && status == BRC_OK) status = warn_of_turns(part[0], before);
 cleanup:
     brc_progress_finish(&progress);
     for (int32_t k = 0; k < n; ++k)

@@ -135,9 +135,9 @@ static brc_status note_change(brc_simulation *s, brc_solve_vectors *v, double of
     return BRC_OK;
 }
 
-/* Whether a residual that stands is what the rounding of the displacements alone leaves: of the force of as much noise
- * as half their last digits, a few times over, since corrections and forces are rounded too. */
-static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double norm, double reference, bool *out)
+/* What the rounding of the displacements alone may leave of a residual [N]: the force of as much noise as half their
+ * last digits, a few times over, since corrections and forces are rounded too. */
+static brc_status rounding_of(brc_simulation *s, brc_solve_vectors *v, double *out)
 {
     static const double few = 8;
     const int64_t n = 3 * (int64_t)s->layout->n_rows;
@@ -154,10 +154,29 @@ static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double no
     BRC_TRY(brc_constrain(s, v->p.move, NULL));
     BRC_TRY(brc_statics_apply(s, v));
     BRC_TRY(brc_statics_square(s, v, v->kp, &square));
-    *out = norm <= few * sqrt(square);
+    *out = few * sqrt(square);
+    return BRC_OK;
+}
+
+/* Whether a residual that stands is that. */
+static brc_status is_rounding(brc_simulation *s, brc_solve_vectors *v, double norm, double reference, bool *out)
+{
+    double rounding;
+    BRC_TRY(rounding_of(s, v, &rounding));
+    *out = norm <= rounding;
     brc_log(s->context, *out ? BRC_LOG_INFO : BRC_LOG_DEBUG,
             "stage '%s': the residual stands at %.3g of the load; rounding of the displacements leaves %.3g",
-            brc_current_stage(s)->name, norm / reference, sqrt(square) / reference);
+            brc_current_stage(s)->name, norm / reference, rounding / reference);
+    return BRC_OK;
+}
+
+/* At least this is the load of a stage [N], whatever its first residual: of a body that has moved before, and may be in
+ * equilibrium already, what rounding leaves is within the tolerance. */
+static brc_status least_reference(brc_simulation *s, brc_solve_vectors *v, double *out)
+{
+    double rounding;
+    BRC_TRY(rounding_of(s, v, &rounding));
+    *out = rounding / brc_statics_tolerance(s);
     return BRC_OK;
 }
 
@@ -230,6 +249,7 @@ static brc_status solve_increment(brc_simulation *s, brc_solve_vectors *v, doubl
         earlier = INFINITY; /* slender beams: stretch and bending settle in turn, so two corrections count */
     v->gives_way = false;
     BRC_TRY(brc_statics_residual(s, v, finite, &norm));
+    if (*reference == 0 && norm > 0) BRC_TRY(least_reference(s, v, reference));
     if (norm > *reference) *reference = norm;
     if (s->statics->n_known > 0 && !finite && brc_solves_rotations(s->model)) {
         BRC_TRY(brc_statics_mix_known(s, v));

@@ -15,11 +15,12 @@
 #define CELLS_DETACHED 4
 
 /* Bonds whose normal stress is above share * limit are marked. plane [n]: lambda + 2 mu [Pa]; n_marked [n_groups]. With
- * share 1 only groups that the force pass told to look at their bonds do. */
+ * share 1 only groups that the force pass told to look at their bonds do; of the linearised law (finite 0) all of their
+ * bonds. */
 KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area,
                         OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
-                        GATHER(coeff) plane, UPDATE(int) look, OWN(coeff) limit, PUT(int) mark, PUT(coeff) measure,
-                        FLAG(int) touched, PUT(state) n_marked)
+                        GATHER(coeff) plane, int finite, UPDATE(int) look, OWN(coeff) limit, PUT(int) mark,
+                        PUT(coeff) measure, FLAG(int) touched, PUT(state) n_marked)
 {
     FOR_EACH_GROUP(group, n_groups)
     {
@@ -39,12 +40,12 @@ KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) 
                 const lane_vec3 r = lane_vec3_scale(lane_load(ratio, entry), lane_block3(area, slot, lane0));
                 const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
                 const lane bound = share * lane_load(limit, entry), room = cell_room(side, r, jump, bound);
-                if (LANE_ANY_SHORT(room,
-                                   LANE_ZERO)) { /* of the two halves of a bond above its limit one is above it too */
-                    const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
-                    const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
+                /* of the two halves of a bond above its limit one is above it too */
+                if (!finite || LANE_ANY_SHORT(room, LANE_ZERO)) {
+                    const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse, finite);
+                    const lane tau = cell_half_stress(h, p, k, r, strain, inverse, finite);
                     const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j),
-                                                        gather_component(plane, j), r, strain, inverse);
+                                                        gather_component(plane, j), r, strain, inverse, finite);
                     const lane sigma = REAL(0.5) * (tau + other);
 #define MARK(l)                                                                                                        \
     if (LANE_ITEM(sigma, l) > LANE_ITEM(bound, l)) {                                                                   \
@@ -66,7 +67,7 @@ KERNEL void cells_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) 
 /* The largest sigma / limit of each element's bonds [n] [-]. */
 KERNEL void cells_ratio(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) area, OWN(coeff) ratio,
                         GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) plane,
-                        OWN(coeff) limit, PUT(coeff) out)
+                        int finite, OWN(coeff) limit, PUT(coeff) out)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -80,10 +81,10 @@ KERNEL void cells_ratio(int n_groups, OWN(int) row_start, OWN(int) neighbour, OW
             const lane_int j = int_block(neighbour, slot, lane0);
             const lane_vec3 r = lane_vec3_scale(lane_load(ratio, entry), lane_block3(area, slot, lane0));
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
-            const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse);
-            const lane tau = cell_half_stress(h, p, k, r, strain, inverse);
+            const lane inverse = cell_inverse_square(r), strain = cell_bond_strain(r, jump, inverse, finite);
+            const lane tau = cell_half_stress(h, p, k, r, strain, inverse, finite);
             const lane other = cell_half_stress(lane_gather9(gradient, j), lane_gather9(stress, j),
-                                                gather_component(plane, j), r, strain, inverse);
+                                                gather_component(plane, j), r, strain, inverse, finite);
             largest = cell_larger(largest, REAL(0.5) * (tau + other) / lane_load(limit, entry));
         }
 #define PUT_LANE(l) out[(brc_size)first + 0x##l] = LANE_ITEM(largest, l);

@@ -335,6 +335,18 @@ LAW coeff fracture_weight(int e, OWN(int) row_start, OWN(int) neighbour, GATHER(
     return sum;
 }
 
+/* What a beam does to element i, and its energy [J]; only called with a constant `finite`. */
+typedef struct {
+    cbm_end end;
+    lane energy;
+} fracture_beam;
+LAW fracture_beam fracture_beam_of(lane_vec3 branch, lane inverse, lane_vec3 jump, lane_quat q_i, lane_quat q_j,
+                                   cbm_stiffness k, int finite)
+{
+    const cbm_shape shape = cbm_beam_shape(branch, inverse, jump, q_i, q_j, finite);
+    return (fracture_beam){cbm_beam_law(shape, inverse, k, finite), cbm_beam_energy(shape, inverse, k, finite)};
+}
+
 /* Bonds chosen by either of their elements break. What they carried leaves the forces, which then are those of the step
  * to come; half_kick dt/2 gives the step that ends its share of them back (velocity Verlet closes with the old force
  * and opens with the new one), 0 none. Of every entry that breaks: step, stress [Pa] and mode of the element that chose
@@ -344,7 +356,7 @@ KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, O
                            UPDATE(int) neighbour, OWN(coeff) branch, UPDATE(coeff) inv_length, OWN(int) mark,
                            GATHER(coeff) record, PUT(coeff) weight, GATHER(int) choice, GATHER(coeff) measure,
                            GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
-                           GATHER(coeff) beam_of, OWN(state) mass, OWN(state) inertia, UPDATE(state) force,
+                           GATHER(coeff) beam_of, int finite, OWN(state) mass, OWN(state) inertia, UPDATE(state) force,
                            UPDATE(state) torque, UPDATE(state) velocity, UPDATE(state) spin, PUT(int) break_step,
                            PUT(int) break_mode, PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) lost,
                            UPDATE(state) broken)
@@ -361,10 +373,13 @@ KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, O
             const lane_vec3 jump = state_vec3_difference(state_gather3(displacement, j), u);
             const lane inverse = lane_load(inv_length, entry);
             const cbm_stiffness k = cbm_stiffness_of(beam_of, own, j, axial, bend, twist);
-            const cbm_shape shape = cbm_beam_shape(lane_block3(branch, slot, lane0), inverse, jump,
-                                                   lane_gather4(orientation, own), lane_gather4(orientation, j), 1);
-            const cbm_end end = cbm_beam_law(shape, inverse, k, 1);
-            const lane energy = cbm_beam_energy(shape, inverse, k);
+            const fracture_beam beam =
+                finite ? fracture_beam_of(lane_block3(branch, slot, lane0), inverse, jump,
+                                          lane_gather4(orientation, own), lane_gather4(orientation, j), k, 1)
+                       : fracture_beam_of(lane_block3(branch, slot, lane0), inverse, jump,
+                                          lane_gather4(orientation, own), lane_gather4(orientation, j), k, 0);
+            const cbm_end end = beam.end;
+            const lane energy = beam.energy;
 #define TAKE(l)                                                                                                        \
     if (fracture_dies(neighbour, choice, first + 0x##l, entry + 0x##l)) {                                              \
         const int e = first + 0x##l, other = neighbour[entry + 0x##l];                                                 \

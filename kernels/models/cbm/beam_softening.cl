@@ -68,7 +68,7 @@ LAW beam_part beam_part_of(cbm_bond bond, lane_vec3 axis0, cbm_own own, lane_qua
     const beam_carry left =
         beam_carried(bond.shape, bond.inv_length0, bond.stiffness, bond.branch, axis0, own.orientation, q_j, lean);
     return (beam_part){{lane_vec3_sub(end.force, left.end.force), lane_vec3_sub(end.torque, left.end.torque)},
-                       cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness) - left.energy};
+                       cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness, 1) - left.energy};
 }
 
 /* |cos| between the axis and the opening. */
@@ -367,7 +367,7 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                 const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                                   orientation, axial, bend, twist, beam_of, 1);
                 const lane k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond),
-                           whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
+                           whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness, 1);
                 coeff lateral[W] = {0};
 #define LAY(l)                                                                                                         \
     {                                                                                                                  \

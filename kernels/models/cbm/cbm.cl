@@ -120,21 +120,48 @@ KERNEL void cbm_force_pass(int n_groups, OWN(int) row_start, OWN(int) neighbour,
     }
 }
 
+/* Energies of the beams of a group [J], and their virials (cbm_add_virial); only called with a constant `finite`. */
+LAW lane cbm_group_energy(int group, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
+                          GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
+                          GATHER(coeff) beam_of, int finite)
+{
+    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+    const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
+    lane sum = LANE_ZERO;
+    for (int slot = row_start[slice]; slot < last; ++slot) {
+        const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement, orientation,
+                                          axial, bend, twist, beam_of, finite);
+        sum += cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness, finite);
+    }
+    return sum;
+}
+LAW lane_sym3 cbm_group_virial(int group, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                               OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation,
+                               coeff axial, coeff bend, coeff twist, GATHER(coeff) beam_of, int finite)
+{
+    const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
+    const cbm_own own = cbm_own_of(group, displacement, orientation, finite);
+    lane_sym3 sum = {LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO};
+    for (int slot = row_start[slice]; slot < last; ++slot) {
+        const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement, orientation,
+                                          axial, bend, twist, beam_of, finite);
+        const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, finite);
+        sum = cbm_add_virial(sum, finite ? bond.branch : bond.shape.branch, end.force);
+    }
+    return cbm_virial_of(sum);
+}
+
 /* Elastic energy of every element, half of each of its beams [J] [n]. */
 KERNEL void cbm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) branch,
                        OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
-                       coeff bend, coeff twist, GATHER(coeff) beam_of, PUT(state) elastic)
+                       coeff bend, coeff twist, GATHER(coeff) beam_of, int finite, PUT(state) elastic)
 {
     FOR_EACH_ITEM(group, n_groups) {
         cbm_ask_ahead(group, displacement, orientation, ahead);
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
-        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
-        lane sum = LANE_ZERO;
-        for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
-                                              orientation, axial, bend, twist, beam_of, 1);
-            sum += cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness);
-        }
+        const lane sum = finite ? cbm_group_energy(group, row_start, neighbour, branch, inv_length, displacement,
+                                                   orientation, axial, bend, twist, beam_of, 1)
+                                : cbm_group_energy(group, row_start, neighbour, branch, inv_length, displacement,
+                                                   orientation, axial, bend, twist, beam_of, 0);
         state_store1(elastic, group * W, REAL(0.5) * sum);
     }
 }
@@ -143,20 +170,14 @@ KERNEL void cbm_energy(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN
  * twice a volume (NAH19 eq. 5). */
 KERNEL void cbm_virial(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) branch,
                        OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
-                       coeff bend, coeff twist, GATHER(coeff) beam_of, PUT(coeff) virial)
+                       coeff bend, coeff twist, GATHER(coeff) beam_of, int finite, PUT(coeff) virial)
 {
     FOR_EACH_ITEM(group, n_groups) {
         cbm_ask_ahead(group, displacement, orientation, ahead);
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), last = row_start[slice + 1];
-        const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
-        lane_sym3 sum = {LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO, LANE_ZERO};
-        for (int slot = row_start[slice]; slot < last; ++slot) {
-            const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
-                                              orientation, axial, bend, twist, beam_of, 1);
-            const cbm_end end = cbm_beam_law(bond.shape, bond.inv_length0, bond.stiffness, 1);
-            sum = cbm_add_virial(sum, bond.branch, end.force);
-        }
-        const lane_sym3 whole = cbm_virial_of(sum);
+        const lane_sym3 whole = finite ? cbm_group_virial(group, row_start, neighbour, branch, inv_length, displacement,
+                                                          orientation, axial, bend, twist, beam_of, 1)
+                                       : cbm_group_virial(group, row_start, neighbour, branch, inv_length, displacement,
+                                                          orientation, axial, bend, twist, beam_of, 0);
         lane_store6(virial, group * W, whole);
     }
 }

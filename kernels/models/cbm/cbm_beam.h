@@ -151,12 +151,12 @@ LAW lane_sym3 cbm_virial_of(lane_sym3 sum)
 }
 
 /* U [J]. */
-LAW lane cbm_beam_energy(cbm_shape s, lane inv_length0, cbm_stiffness k)
+LAW lane cbm_beam_energy(cbm_shape s, lane inv_length0, cbm_stiffness k, int finite)
 {
     const lane_vec3 apart = lane_vec3_sub(s.bent1, s.bent2);
     const lane bent = REAL(1.5) * (lane_vec3_dot(s.bent1, s.bent1) + lane_vec3_dot(s.bent2, s.bent2)) -
                       REAL(0.5) * lane_vec3_dot(apart, apart);
-    const lane elongation = cbm_elongation(s);
+    const lane elongation = finite ? cbm_elongation(s) : s.stretched * s.length0;
     return inv_length0 * (REAL(0.5) * k.axial * elongation * elongation +
                           inv_length0 * inv_length0 * (k.twist * s.twist * s.twist + k.bend * bent));
 }

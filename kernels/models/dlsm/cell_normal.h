@@ -3,7 +3,7 @@
  *     sigma = (tau_i + tau_j) / 2,   tau_i = n.(P_i N) + (lambda_i + 2 mu_i) (e - N.E_i N)
  * e = (l^2 - L^2) / (2 L^2): the bond's own strain; E_i: Green strain of H_i; N = R / L; n: direction of F_H R. In a
  * uniform state e - N.E N vanishes and sigma is the nominal stress, force over undeformed area. Both halves are even in
- * R, so the two sides of a bond agree. */
+ * R, so the two sides of a bond agree. finite: 1 as above; 0 the linearisation, which no small turn changes. */
 #ifndef BRC_KERNELS_CELL_NORMAL_H
 #define BRC_KERNELS_CELL_NORMAL_H
 
@@ -15,23 +15,25 @@ LAW lane cell_larger(lane a, lane b) { return -lane_min(-a, -b); }
 LAW lane cell_inverse_square(lane_vec3 branch) { return REAL(1) / (lane_vec3_dot(branch, branch) + REAL(1e-30)); }
 
 /* e [-] of a bond. jump: u_j - u_i [m]. */
-LAW lane cell_bond_strain(lane_vec3 branch, lane_vec3 jump, lane inverse_square)
+LAW lane cell_bond_strain(lane_vec3 branch, lane_vec3 jump, lane inverse_square, int finite)
 {
-    return inverse_square * (lane_vec3_dot(branch, jump) + REAL(0.5) * lane_vec3_dot(jump, jump));
+    const lane along = lane_vec3_dot(branch, jump);
+    return inverse_square * (finite ? along + REAL(0.5) * lane_vec3_dot(jump, jump) : along);
 }
 
-/* N.E N [-], E the Green strain of the gradient. */
-LAW lane cell_strain_along(lane_mat3 gradient, lane_vec3 branch, lane inverse_square)
+/* N.E N [-], E the Green strain of the gradient: that of a bond whose jump is H R. */
+LAW lane cell_strain_along(lane_mat3 gradient, lane_vec3 branch, lane inverse_square, int finite)
 {
-    const lane_vec3 along = lane_mat3_mul_vec(gradient, branch);
-    return inverse_square * (lane_vec3_dot(branch, along) + REAL(0.5) * lane_vec3_dot(along, along));
+    return cell_bond_strain(branch, lane_mat3_mul_vec(gradient, branch), inverse_square, finite);
 }
 
 /* tau [Pa] of one side; modulus: lambda + 2 mu [Pa]. */
 LAW lane cell_half_stress(lane_mat3 gradient, lane_mat3 stress, lane modulus, lane_vec3 branch, lane strain,
-                          lane inverse_square)
+                          lane inverse_square, int finite)
 {
-    const lane own = cell_strain_along(gradient, branch, inverse_square);
+    const lane own = cell_strain_along(gradient, branch, inverse_square, finite);
+    if (!finite)
+        return inverse_square * lane_vec3_dot(branch, lane_mat3_mul_vec(stress, branch)) + modulus * (strain - own);
     const lane_vec3 now = lane_vec3_add(branch, lane_mat3_mul_vec(gradient, branch));
     const lane stretch = LANE_SQRT(REAL(1) + REAL(2) * own); /* |F_H N| */
     return inverse_square * lane_vec3_dot(now, lane_mat3_mul_vec(stress, branch)) / stretch + modulus * (strain - own);

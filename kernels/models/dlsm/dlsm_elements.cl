@@ -50,7 +50,7 @@ LAW void dlsm_force_of(members who, OWN(int) neighbour, OWN(int) ahead, OWN(coef
 LAW void cells_force_of(members who, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area, OWN(coeff) ratio,
                         GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part, coeff k_one,
                         coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient, OWN(coeff) stress,
-                        OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
+                        OWN(coeff) plane, OWN(coeff) limit, int finite, PUT(state) force, PUT(int) look)
 {
     members_states_later(who, displacement, 3, ahead), members_later(who, flux, 9, ahead);
     const dlsm_end own = dlsm_end_of(who, displacement, flux, bond_part, k_one, one_plus_tau, modulus);
@@ -70,6 +70,7 @@ LAW void cells_force_of(members who, OWN(int) neighbour, OWN(int) ahead, OWN(coe
             lane_min(least, cell_room(side, lane_vec3_scale(b.ratio, b.area), b.jump, members_row1(who, limit, slot)));
     }
     members_store3(who, force, f);
+    if (!finite) least = LANE_ZERO - REAL(1); /* the room is that of the full law */
     if (LANE_ANY_SHORT(least, LANE_ZERO)) {
 #define LOOK(l)                                                                                                        \
     if (!(LANE_ITEM(least, l) >= 0)) STORE_SAME(look + LANE_ITEM(who.own, l) / W, 1);

@@ -78,14 +78,15 @@ KERNEL void dlsm_force_held(int n_items, OWN(int) row_start, OWN(int) neighbour,
 KERNEL void cells_force_held(int n_items, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
                              OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
                              coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient,
-                             OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, OWN(int) boundary, OWN(int) held_of,
-                             OWN(int) face_start, OWN(state) reaction, UPDATE(state) force, PUT(int) look)
+                             OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, int finite, OWN(int) boundary,
+                             OWN(int) held_of, OWN(int) face_start, OWN(state) reaction, UPDATE(state) force,
+                             PUT(int) look)
 {
     FOR_EACH_GROUP(item, n_items)
     {
         const members who = members_of_group(item, row_start);
         cells_force_of(who, neighbour, ahead, area, ratio, displacement, flux, bond_part, k_one, one_plus_tau, modulus,
-                       gradient, stress, plane, limit, force, look);
+                       gradient, stress, plane, limit, finite, force, look);
         FOR_HELD_LANES(l, h) held_add_forces(who.first + l, face_start[h], face_start[h + 1], reaction, force);
     }
 }

@@ -61,12 +61,13 @@ KERNEL void PASS(dlsm_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour,
 KERNEL void PASS(cells_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) area,
                               OWN(coeff) ratio, GATHER(state) displacement, GATHER(coeff) flux, GATHER(coeff) bond_part,
                               coeff k_one, coeff one_plus_tau, GATHER(coeff) modulus, OWN(coeff) gradient,
-                              OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, PUT(state) force, PUT(int) look)
+                              OWN(coeff) stress, OWN(coeff) plane, OWN(coeff) limit, int finite, PUT(state) force,
+                              PUT(int) look)
 {
     FOR_EACH_GROUP(item, n_items)
     {
         cells_force_of(PASS_MEMBERS(item, row_start), neighbour, ahead, area, ratio, displacement, flux, bond_part,
-                       k_one, one_plus_tau, modulus, gradient, stress, plane, limit, force, look);
+                       k_one, one_plus_tau, modulus, gradient, stress, plane, limit, finite, force, look);
     }
 }
 

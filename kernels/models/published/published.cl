@@ -107,6 +107,34 @@ LAW published_bond published_bond_at(members who, int slot, lane_int j, publishe
                                        rotation_factor, couple, 0);
 }
 
+/* What the bonds of elements do to them [N], [N m], and their largest normal stress over limit [-]; only called with a
+ * constant `finite`. */
+typedef struct {
+    lane_vec3 force, torque;
+    lane largest;
+} published_sums;
+LAW published_sums published_sums_of(members who, OWN(int) neighbour, OWN(coeff) branch, OWN(coeff) area,
+                                     GATHER(state) displacement, GATHER(state) orientation, GATHER(coeff) strain,
+                                     coeff lambda_one, coeff mu_one, coeff young_one, coeff rotation_factor,
+                                     coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit, int finite)
+{
+    const published_own own = published_own_of(who.own, displacement, orientation, strain);
+    const lane zero = LANE_ZERO;
+    published_sums sums = {{zero, zero, zero}, {zero, zero, zero}, zero};
+    lane_int next = members_first_neighbour(who, neighbour, 0);
+    for (int slot = who.begin; slot < who.end; ++slot) {
+        const lane_int j = members_next_neighbour(who, neighbour, slot, 1, &next);
+        const published_bond b =
+            published_bond_at(who, slot, j, own, branch, area, displacement, orientation, strain, lambda_one, mu_one,
+                              young_one, rotation_factor, couple, lame_of, finite);
+        sums.force = lane_vec3_add(sums.force, b.force);
+        sums.torque = lane_vec3_add(sums.torque, b.torque);
+        const lane ratio = b.stress / members_row1(who, limit, slot);
+        sums.largest = lane_max(sums.largest, who.listed ? members_there(who, slot) * ratio : ratio);
+    }
+    return sums;
+}
+
 /* Strain energy V sigma:e / 2 of the least-squares strain [J] [n]. Not the potential of the forces (there is none). */
 LAW state published_energy_of(int e, OWN(coeff) strain, OWN(state) volume, coeff lambda_one, coeff mu_one,
                               OWN(coeff) lame_of)

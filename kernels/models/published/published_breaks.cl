@@ -7,7 +7,7 @@
 KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
                             OWN(coeff) area, GATHER(state) displacement, GATHER(state) orientation,
                             GATHER(coeff) strain, coeff lambda_one, coeff mu_one, coeff young_one,
-                            coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, OWN(coeff) limit,
+                            coeff rotation_factor, coeff couple, GATHER(coeff) lame_of, int finite, OWN(coeff) limit,
                             OWN(coeff) bond_ratio, PUT(int) mark, PUT(coeff) measure, FLAG(int) touched,
                             PUT(state) n_marked)
 {
@@ -23,7 +23,7 @@ KERNEL void published_check(int n_groups, coeff share, OWN(int) row_start, OWN(i
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
                 const published_bond b = published_bond_at(who, slot, members_neighbour(who, neighbour, slot), own,
                                                            branch, area, displacement, orientation, strain, lambda_one,
-                                                           mu_one, young_one, rotation_factor, couple, lame_of, 1);
+                                                           mu_one, young_one, rotation_factor, couple, lame_of, finite);
                 const lane bound = share * lane_load(limit, entry);
 #define MARK(l)                                                                                                        \
     if (LANE_ITEM(b.stress, l) > LANE_ITEM(bound, l)) {                                                                \

@@ -48,38 +48,27 @@ KERNEL void PASS(published_force_pass)(PASS_ITEMS, OWN(int) row_start, OWN(int) 
     }
 }
 
-/* As published_force_pass with the full law; bond_ratio [n]: the largest normal stress over limit of each element's
- * bonds
- * [-]. */
+/* As published_force_pass; bond_ratio [n]: the largest normal stress over limit of each element's bonds [-]. */
 KERNEL void PASS(published_breaking_force)(PASS_ITEMS, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead,
                                            OWN(coeff) branch, OWN(coeff) area, GATHER(state) displacement,
                                            GATHER(state) orientation, GATHER(coeff) strain, coeff lambda_one,
                                            coeff mu_one, coeff young_one, coeff rotation_factor, coeff couple,
-                                           GATHER(coeff) lame_of, OWN(coeff) limit, PUT(state) force, PUT(state) torque,
-                                           PUT(coeff) bond_ratio)
+                                           GATHER(coeff) lame_of, int finite, OWN(coeff) limit, PUT(state) force,
+                                           PUT(state) torque, PUT(coeff) bond_ratio)
 {
     FOR_EACH_GROUP(item, n_items)
     {
         const members who = PASS_MEMBERS(item, row_start);
         members_states_later(who, displacement, 3, ahead), members_states_later(who, orientation, 4, ahead);
         members_later(who, strain, 6, ahead);
-        const published_own own = published_own_of(who.own, displacement, orientation, strain);
-        lane_vec3 f = {LANE_ZERO, LANE_ZERO, LANE_ZERO}, t = {LANE_ZERO, LANE_ZERO, LANE_ZERO};
-        lane largest = LANE_ZERO;
-        lane_int next = members_first_neighbour(who, neighbour, 0);
-        for (int slot = who.begin; slot < who.end; ++slot) {
-            const lane_int j = members_next_neighbour(who, neighbour, slot, 1, &next);
-            const published_bond b =
-                published_bond_at(who, slot, j, own, branch, area, displacement, orientation, strain, lambda_one,
-                                  mu_one, young_one, rotation_factor, couple, lame_of, 1);
-            f = lane_vec3_add(f, b.force);
-            t = lane_vec3_add(t, b.torque);
-            const lane ratio = b.stress / members_row1(who, limit, slot);
-            largest = lane_max(largest, who.listed ? members_there(who, slot) * ratio : ratio);
-        }
-        members_store3(who, force, f);
-        members_store3(who, torque, t);
-        members_put1(who, bond_ratio, largest);
+        const published_sums sums =
+            finite ? published_sums_of(who, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                       mu_one, young_one, rotation_factor, couple, lame_of, limit, 1)
+                   : published_sums_of(who, neighbour, branch, area, displacement, orientation, strain, lambda_one,
+                                       mu_one, young_one, rotation_factor, couple, lame_of, limit, 0);
+        members_store3(who, force, sums.force);
+        members_store3(who, torque, sums.torque);
+        members_put1(who, bond_ratio, sums.largest);
     }
 }
 

@@ -7,7 +7,7 @@
 
 brc_status brc_cbm_evaluate(brc_simulation *s, const brc_force_request *r)
 {
-    if (s->fracture && r->finite) return brc_cbm_breaking_force(s, r);
+    if (s->fracture && !r->homogeneous) return brc_cbm_breaking_force(s, r);
     return brc_pass_run_awake(s, brc_cbm_own_of(s)->force, s->n_groups, r, NULL);
 }
 

@@ -107,7 +107,7 @@ brc_status brc_dlsm_evaluate(brc_simulation *s, const brc_force_request *r)
     hold_in_passes(s, r, &x);
     BRC_TRY(fluxes(s, r, &x));
     const brc_ring_list *list = x.whole_flux ? NULL : x.list;
-    const bool screens = r->finite && !r->homogeneous && !r->rings && brc_dlsm_screens(s);
+    const bool screens = !r->homogeneous && !r->rings && brc_dlsm_screens(s);
     if (!r->rings && !brc_pass_is_whole(s, list, x.force))
         BRC_TRY(brc_buffer_fill_zero(r->force)); /* of cells without bonds */
     if (x.held_forces)

@@ -13,14 +13,14 @@ static brc_status deformation(brc_simulation *s, double *out)
     return brc_coeff_from_rows(s, brc_flux_of(s), out, 9);
 }
 
-/* Green strain of G. */
-static void green(const double g[9], double e[6])
+/* Green strain of G, or its linear part. */
+static void green(const double g[9], bool finite, double e[6])
 {
     static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
     for (int c = 0; c < 6; ++c) {
         const int i = pair[c][0], j = pair[c][1];
         e[c] = 0.5 * (g[3 * i + j] + g[3 * j + i]);
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; finite && k < 3; ++k)
             e[c] += 0.5 * g[3 * k + i] * g[3 * k + j];
     }
 }
@@ -52,13 +52,15 @@ brc_status brc_dlsm_strain_stress(brc_simulation *s, double *strain, double *str
     const int64_t n = s->domain->n_elements;
     BRC_LOCAL(s->context, 9 * n, double, g, "deformation");
     const brc_status status = deformation(s, g);
+    const bool finite = brc_force_is_finite(s);
     for (int64_t e = 0; status == BRC_OK && e < n; ++e) {
         double own[6], sigma[6];
-        green(g + 9 * e, own);
+        green(g + 9 * e, finite, own);
         brc_hooke(s->elastic + s->material_of_element[e], own, sigma);
         if (strain) memcpy(strain + 6 * e, own, sizeof own);
         if (stress) memcpy(stress + 6 * e, sigma, sizeof sigma);
-        if (cauchy) cauchy_of(g + 9 * e, sigma, cauchy + 6 * e);
+        if (cauchy && finite) cauchy_of(g + 9 * e, sigma, cauchy + 6 * e);
+        if (cauchy && !finite) memcpy(cauchy + 6 * e, sigma, sizeof sigma);
     }
     return status;
 }

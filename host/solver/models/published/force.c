@@ -10,7 +10,7 @@ brc_status brc_published_evaluate(brc_simulation *s, const brc_force_request *r)
         BRC_TRY(brc_published_breaks_strains(s, r));
     else
         BRC_TRY(brc_pass_run_awake(s, brc_published_own_of(s)->strain, s->n_groups, r, NULL));
-    if (brc_cell_breaks_by_bond(s) && r->finite) return brc_published_breaks_force(s, r);
+    if (brc_cell_breaks_by_bond(s) && !r->homogeneous) return brc_published_breaks_force(s, r);
     return brc_pass_over(s, brc_published_own_of(s)->force, brc_published_own_of(s)->force_listed, list, 2, r, NULL);
 }
 
