@@ -59,7 +59,14 @@ def main(path, nu):
     stiffness = (stiffness + (1 + TAU) * r.T @ spring @ r + BETA * (r.T @ spring @ m + m.T @ spring @ r)).tocsc()
 
     size = np.linalg.norm(pull, axis=1)
-    reach = np.bincount(own, size, n)
+    # soft_together: no less than the largest eigenvalue of M T
+    sways = np.broadcast_to(three, (n, 3, 3)).copy()
+    np.add.at(sways, own, -0.5 * s[:, :, None] * beside[:, None, :] / volume[own, None, None])
+    moves = np.einsum("nki,nkj->nij", sways, sways)
+    np.add.at(moves, own, (0.25 * (s * s).sum(1) / volume[own] / volume[other])[:, None, None] * beside[:, :, None] * beside[:, None, :])
+    together = np.zeros((n, 3, 3))
+    np.add.at(together, own, pull[:, :, None] * pull[:, None, :] / size[:, None, None])
+    reach = np.maximum(np.bincount(own, size, n), np.linalg.eigvals(moves @ together).real.max(axis=1))
     cell = volume[own] * reach[own]
     draws = (cell * size * (mu + BESIDE * max(lam, 0)))[:, None, None] * three + (cell / size * (lam + mu))[:, None, None] * pull[:, :, None] * pull[:, None, :]
     share = 0.5 * ratio[lead] * ((pull[lead] - pull[twin[lead]]) * s[lead]).sum(1)

@@ -194,7 +194,8 @@ LAW lane_vec3 soft_tensor_way(lane_sym3 k, lane more, lane_vec3 a)
 
 /* What a cell draws back with: of its V psi, with H = ... - opening (x) pull, pull = A^-1 s [1/m]; reach: sum of
  * |pull| over all open faces of the cell: that sum over faces is not below the cell's own energy whatever the openings
- * (Cauchy and Schwarz). modulus: lambda + 2 mu, shear: mu [Pa]. */
+ * (Cauchy and Schwarz); more where its faces' centroids lie far beside their branches (softening_onset.cl,
+ * soft_together). modulus: lambda + 2 mu, shear: mu [Pa]. */
 LAW lane_sym3 soft_cell_stiffness(lane_vec3 pull, lane reach, lane volume, lane modulus, lane shear)
 {
     const lane size = soft_size(pull), lambda = modulus - REAL(2) * shear;
@@ -271,11 +272,6 @@ LAW lane_vec3 soft_balance(soft_face f, lane widest, lane_vec3 drive, lane_sym3 
     }
     return lane_vec3_where(slides, soft_free_balance(f, widest, freely, k, pulled, axis, slides), stuck);
 }
-
-/* Broken faces take this times the part of the stiffness that others take (0.6, cell_softening.c).
- * Nothing but the cells draws them back, and where all faces of a cell on one side are broken and move at once, sweeps
- * with less than 0.7 of the stiffness overshoot and gain energy without end (test_cell_softening). */
-#define SOFT_BROKEN_PART REAL(1.3333333333333333)
 
 /* Sides of a broken face with |v|^2 below this times |w|^2, which nothing pushes along the crack, fly apart: they no
  * longer turn. */

@@ -114,10 +114,9 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
         const lane_vec3 given = soft_pull_of(f.e, s, inv_shape), taken = soft_pull_of(f.j, s, inv_shape);
         const lane share = REAL(0.5) * f.ratio * lane_vec3_dot(s, lane_vec3_add(given, taken));
         const lane bond = stiffen * soft_bond_stiffness(k, f.ratio, share, beta, one_plus_tau);
-        const lane part = LANE_WHERE(soft_apart(f, open), lane_number(SOFT_BROKEN_PART), lane_number(1));
         const lane_sym3 here = soft_draws_back(f.e, given, stiffen, inv_volume, plane, shear, reach),
                         there = soft_draws_back(f.j, taken, stiffen, inv_volume, plane, shear, reach),
-                        stiffness = lane_sym3_scale_shift(part, lane_sym3_add(here, there), part * bond);
+                        stiffness = lane_sym3_scale_shift(lane_number(1), lane_sym3_add(here, there), bond);
         const soft_face law = soft_law_of(r);
         const lane_mask slides = soft_slides(r);
         lane keeps = soft_keeps(r.widest, release * f.ratio * soft_size(s));

@@ -340,31 +340,90 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
     }
 }
 
-/* Open faces of every element, those that it leads, and their reach; and the weakest limit of those still whole. */
-KERNEL void soft_count(int n, OWN(int) row_start, OWN(coeff) alive, OWN(int) open, OWN(int) lead, OWN(coeff) limit,
-                       OWN(coeff) area, OWN(coeff) inv_shape, PUT(int) n_open, PUT(int) n_lead, PUT(coeff) reach,
-                       PUT(coeff) least)
+/* p = A^-1 s of a face [1/m]. */
+LAW soft_vector soft_pull_at(int e, OWN(coeff) inv_shape, soft_vector s)
+{
+    GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
+    const coeff xx = p[0], yy = p[C], zz = p[2 * C], yz = p[3 * C], xz = p[4 * C], xy = p[5 * C];
+    return (soft_vector){xx * s.x + xy * s.y + xz * s.z, xy * s.x + yy * s.y + yz * s.z,
+                         xz * s.x + yz * s.y + zz * s.z};
+}
+/* sum + part a (x) a */
+LAW failure_stress soft_add_square(failure_stress sum, coeff part, soft_vector a)
+{
+    return (failure_stress){sum.xx + part * a.x * a.x, sum.yy + part * a.y * a.y, sum.zz + part * a.z * a.z,
+                            sum.yz + part * a.y * a.z, sum.xz + part * a.x * a.z, sum.xy + part * a.x * a.y};
+}
+/* What w (x) p more in the gradient H of a cell takes of energy, p.M p times |w|^2 V: M [-], of its own G and of those
+ * around, which its faces' centroids beside the branches strain too (docs/notebook/theory.md T2): G by w (x) (p - sum
+ * of s (d.p) / 2V), each of theirs by w (x) s (d.p) / 2V_j. */
+LAW failure_stress soft_sways(int e, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(coeff) area,
+                              OWN(coeff) offset, GATHER(coeff) inv_volume, GATHER(coeff) plane, GATHER(coeff) modulus)
+{
+    soft_vector x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1}; /* rows of 1 - sum of s (x) d / 2V */
+    failure_stress m = {0, 0, 0, 0, 0, 0};
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const brc_size entry = SOFT_ENTRY;
+        const int j = neighbour[entry];
+        if (!(alive[entry] > 0)) continue;
+        const soft_vector s = soft_row(area, entry), d = soft_row(offset, entry);
+        const coeff own = REAL(0.5) * inv_volume[e];
+        x = soft_add(x, -own * s.x, d), y = soft_add(y, -own * s.y, d), z = soft_add(z, -own * s.z, d);
+#if BRC_MANY_MATERIALS
+        const coeff weight = modulus[e] / modulus[j], part = weight * weight * plane[j] / plane[e];
+#else
+        const coeff part = REAL(1);
+        (void)plane, (void)modulus;
+#endif
+        m = soft_add_square(m, REAL(0.5) * own * inv_volume[j] * part * soft_dot(s, s), d);
+    }
+    return soft_add_square(soft_add_square(soft_add_square(m, REAL(1), x), REAL(1), y), REAL(1), z);
+}
+/* The largest eigenvalue of M T, T the sum of p (x) p / |p| over the open faces of a cell, p = A^-1 s: |w|^2 |p| V
+ * times it is not below the energy that openings w of its faces take together [1/m]. */
+LAW coeff soft_together(int e, failure_stress m, OWN(int) row_start, OWN(coeff) alive, OWN(int) open, OWN(coeff) area,
+                        OWN(coeff) inv_shape)
+{
+    const coeff xx = SQRT(m.xx), xy = m.xy / xx, xz = m.xz / xx, yy = SQRT(m.yy - xy * xy), yz = (m.yz - xy * xz) / yy,
+                zz = SQRT(failure_larger(m.zz - xz * xz - yz * yz, 0)); /* M = R^T R: of R T R^T */
+    failure_stress sum = {0, 0, 0, 0, 0, 0};
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const brc_size entry = SOFT_ENTRY;
+        if (!open[entry] || !(alive[entry] > 0)) continue;
+        const soft_vector p = soft_pull_at(e, inv_shape, soft_row(area, entry));
+        sum = soft_add_square(sum, REAL(1) / SQRT(soft_dot(p, p)),
+                              (soft_vector){xx * p.x + xy * p.y + xz * p.z, yy * p.y + yz * p.z, zz * p.z});
+    }
+    return failure_principal_of(sum).first;
+}
+
+/* Open faces of every element, those that it leads, and their reach: the sum of |A^-1 s| over them (softening.h), and
+ * not below soft_together; and the weakest limit of those still whole. */
+KERNEL void soft_count(int n, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) alive, OWN(int) open, OWN(int) lead,
+                       OWN(coeff) limit, OWN(coeff) area, OWN(coeff) offset, OWN(coeff) inv_shape,
+                       GATHER(coeff) inv_volume, GATHER(coeff) plane, GATHER(coeff) modulus, PUT(int) n_open,
+                       PUT(int) n_lead, PUT(coeff) reach, PUT(coeff) least)
 {
     FOR_EACH_ITEM(e, n) {
-        GLOBAL const coeff *p = inv_shape + (brc_size)(e / C) * 6 * C + e % C;
-        const coeff xx = p[0], yy = p[C], zz = p[2 * C], yz = p[3 * C], xz = p[4 * C], xy = p[5 * C];
         int count = 0, leads = 0;
         coeff sum = 0, weakest = CELLS_NEVER;
         for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
             const brc_size entry = SOFT_ENTRY;
             weakest = limit[entry] < weakest ? limit[entry] : weakest;
             if (!open[entry] || !(alive[entry] > 0)) continue;
-            const soft_vector s = soft_row(area, entry),
-                              a = {xx * s.x + xy * s.y + xz * s.z, xy * s.x + yy * s.y + yz * s.z,
-                                   xz * s.x + yz * s.y + zz * s.z};
-            sum += SQRT(soft_dot(a, a));
+            const soft_vector p = soft_pull_at(e, inv_shape, soft_row(area, entry));
+            sum += SQRT(soft_dot(p, p));
             count += 1;
             leads += lead[entry] != 0;
         }
         n_open[e] = count;
         n_lead[e] = leads;
-        reach[e] = sum;
         least[e] = weakest;
+        reach[e] = !count ? REAL(0)
+                          : failure_larger(sum, soft_together(e,
+                                                              soft_sways(e, row_start, neighbour, alive, area, offset,
+                                                                         inv_volume, plane, modulus),
+                                                              row_start, alive, open, area, inv_shape));
     }
 }
 

@@ -12,7 +12,7 @@
  * back [J]; BOOKED: what of SPENT the last step added [J]. Entries: open: 0 whole, SOFT_OPENS from the onset on,
  * SOFT_APART from the end of the cohesion on; lead: 1 on the side with the lower id, which computes for both and
  * alone has the whole record: the other has ONSET, SPENT, HELD, BOOKED, RUBS and TURNS. Elements [n]: n_open: open
- * faces that hold, n_lead: those that it leads; reach: sum of |A^-1 s| over all of them [1/m]. */
+ * faces that hold, n_lead: those that it leads; reach: sum of |A^-1 s| over all of them, or more (soft_count) [1/m]. */
 
 #define SOFT_SHIFT 0
 #define SOFT_SIDE_SHIFT 3

@@ -50,7 +50,7 @@ static void open_joint(bench_case *c, const char *softening, brc_precision preci
 
 /* Peak, residual force and dissipation of two layers under pressure: (c + p tan phi) A, mu p A; G_II A, and mu p A
  * times the slip, which is what was travelled less what the force strains. Every face is alike, so that no face waits
- * for another. A step adds a hundredth of the friction, of which three sweeps leave some, and strains of 1e-4 turn the
+ * for another. A step adds a hundredth of the friction, of which the sweeps leave some, and strains of 1e-4 turn the
  * faces: 1 % of the peak, half a percent of the friction. What is spent is the area below the law by the openings that
  * there were: to rounding. */
 static void a_joint_slides_at_its_strength(brc_precision precision, double rounding)
