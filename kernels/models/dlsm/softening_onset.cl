@@ -39,17 +39,6 @@ LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shea
            failure_possible(stress, (failure_limits){limit, 0, shear}, (failure_shear){0, slope, slope});
 }
 
-/* Cosine of the normal of a face to the axis of its crack: by the mean stress of its two cells, as that at the bond
- * leans towards the normal; where that mean is less than half of what opens the face, a bond that bridges a crack, by
- * the bond's own, `size`. */
-LAW coeff soft_cosine(failure_stress mean, soft_vector normal, coeff worst, coeff size, coeff steepest)
-{
-    const failure_principal whole = failure_principal_of(mean);
-    const soft_vector axis = {whole.first_axis.x, whole.first_axis.y, whole.first_axis.z};
-    const coeff c = SOFT_ABS(soft_dot(normal, axis));
-    return whole.first < REAL(0.5) * worst ? size : c < steepest ? steepest : c;
-}
-
 LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
 /* The same number in every lane; that of the first. */
 LAW lane_vec3 soft_lanes(soft_vector a) { return (lane_vec3){LANE_ZERO + a.x, LANE_ZERO + a.y, LANE_ZERO + a.z}; }
@@ -124,6 +113,26 @@ LAW soft_cosines soft_cosines_of(failure_principal at, soft_vector a)
                           a.x * at.second_axis.x + a.y * at.second_axis.y + a.z * at.second_axis.z,
                           a.x * at.third_axis.x + a.y * at.third_axis.y + a.z * at.third_axis.z};
 }
+/* Cosine of the normal of a face to the axis of its crack. `axis`, of the stress at the bond, leans towards the normal;
+ * the mean of the two cells, T, does not: the axis is that of T T axis. A pull along the crack counts for no more than
+ * that along `axis`, so that it does not tilt the crack, and a push for nothing. Where the largest of that mean is less
+ * than half of what opens the face, a bond that bridges a crack, to `axis` itself: `size`. */
+LAW coeff soft_cosine(failure_stress mean, soft_vector normal, soft_vector axis, coeff worst, coeff size,
+                      coeff steepest)
+{
+    const failure_principal whole = failure_principal_of(mean);
+    if (whole.first < REAL(0.5) * worst) return size;
+    const soft_cosines n = soft_cosines_of(whole, normal), a = soft_cosines_of(whole, axis);
+    const coeff one = failure_larger(whole.first, 0), two = failure_larger(whole.second, 0),
+                three = failure_larger(whole.third, 0),
+                most = one * a.first * a.first + two * a.second * a.second + three * a.third * a.third;
+    const coeff x = one < most ? one : most, y = two < most ? two : most, z = three < most ? three : most;
+    const soft_vector pulled = {x * x * a.first, y * y * a.second, z * z * a.third};
+    const coeff length = SQRT(soft_dot(pulled, pulled)),
+                across = SOFT_ABS(pulled.x * n.first + pulled.y * n.second + pulled.z * n.third);
+    return failure_larger(length > 0 ? across / length : REAL(0), steepest);
+}
+
 /* Pull along an axis on the projection of a face across it [Pa]: in an even stress, and its axis, the largest principal
  * value, and more where the stress at the face leans from the axis towards the normal. Pushes count for nothing, as
  * they go on along a crack; nor do faces more than 45 degrees off, on which a slide along the crack counts for more
@@ -171,6 +180,24 @@ LAW coeff soft_drawn(failure_stress wide, failure_principal at, soft_vector norm
                : soft_pull_along(at, normal, axis);
 }
 
+/* Of a stress at a face, the largest principal value whose axis stands within the angle of `steepest` to the normal
+ * [Pa]; some axis always stands within 55 degrees of it. A larger pull that lies along the face does not open it, nor
+ * keep it shut. cosine: of normal and axis. */
+typedef struct {
+    coeff stress, cosine;
+    soft_vector axis;
+    int is_first;
+} soft_tension;
+LAW soft_tension soft_across(failure_principal at, soft_vector normal, coeff steepest)
+{
+    const soft_cosines n = soft_cosines_of(at, normal);
+    if (!(SOFT_ABS(n.first) < steepest))
+        return (soft_tension){at.first, n.first, {at.first_axis.x, at.first_axis.y, at.first_axis.z}, 1};
+    if (!(SOFT_ABS(n.second) < steepest))
+        return (soft_tension){at.second, n.second, {at.second_axis.x, at.second_axis.y, at.second_axis.z}, 0};
+    return (soft_tension){at.third, n.third, {at.third_axis.x, at.third_axis.y, at.third_axis.z}, 0};
+}
+
 /* The bond of one entry of an element, which may have a stress above its limit: 1 where it is marked. */
 LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int shears, coeff slope, OWN(int) row_start,
                         OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio, coeff k_one,
@@ -192,22 +219,23 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
                        shears ? share * shear_limit[entry] : REAL(0), slope))
         return 0;
     const failure_principal largest = failure_principal_of(whole);
-    const soft_vector axis = {largest.first_axis.x, largest.first_axis.y, largest.first_axis.z};
-    const coeff c = soft_dot(normal, axis), size = c < 0 ? -c : c;
+    const soft_tension across = soft_across(largest, normal, steepest);
+    const soft_vector axis = across.axis;
+    const coeff c = across.cosine, size = SOFT_ABS(c);
     const coeff most = share * limit[entry];
     const coeff drawn = /* only where it may be more than both */
-        soft_pull_at_most(largest, normal) < REAL(0.999) * failure_larger(most, largest.first) ||
+        !across.is_first || soft_pull_at_most(largest, normal) < REAL(0.999) * failure_larger(most, largest.first) ||
                 soft_bridges(now.mean, most)
             ? REAL(0)
             : soft_drawn(soft_add_around(now.mean, e, row_start, neighbour, gradient, stress), largest, normal, most);
-    const coeff first = failure_larger(largest.first, drawn);
+    const coeff first = failure_larger(across.stress, drawn);
     const int bends = edge > first;
     const coeff worst = bends ? edge : first;
     if (shears) {
         const failure_state slip = soft_slip(largest, traction, normal, share * shear_limit[entry], slope);
         const soft_vector plane = soft_slip_plane(slip, normal);
         const coeff leans = soft_dot(plane, normal);
-        const int nearer = slip.ratio * most >= worst || (!bends && size < steepest);
+        const int nearer = slip.ratio * most >= worst;
         if (slip.ratio > REAL(1) && nearer && !(leans < steepest)) {
             mark[entry] = SOFT_WISH;
             measure[entry] = slip.stress;
@@ -217,12 +245,12 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
             return 1;
         }
     }
-    if (!(worst > most) || (!bends && size < steepest)) return 0;
-    const int turned = size < steepest || largest.first < REAL(0.5) * worst;
+    if (!(worst > most)) return 0;
+    const int turned = across.stress < REAL(0.5) * worst;
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, worst, size, steepest);
+    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
     soft_put(crack, (int)entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
     return 1;
 }

@@ -7,7 +7,7 @@
 #include "dlsm_internal.h"
 #include <math.h>
 
-/* Faces whose normal stands further from the principal axis than 60 degrees carry little across it and do not open
+/* Faces whose normal stands further from a principal axis than 60 degrees carry little across it and do not open by it
  * (docs/notebook/fracture.md). */
 static const double steepest = 0.5;
 /* Faces look at their own traction where a pull on a cell is above this share of the limit (softening_screen.cl,

@@ -66,6 +66,38 @@ static void a_flat_crack_costs_its_fracture_energy(void **state)
     }
 }
 
+/* A pull along the crack, however large, neither cheapens it nor makes it dearer: a weak plane across x is pulled apart
+ * while the body is pulled along y by as much, or three times as much. The bound is that of the flat crack; by the
+ * axis of the largest of both pulls it cost half. */
+static void a_pull_along_a_crack_does_not_cheapen_it(void **state)
+{
+    (void)state;
+    const char *along[] = {"1e-4", "3e-4"};
+    for (int k = 0; k < 2; ++k) {
+        bench_case c;
+        char stages[512];
+        snprintf(
+            stages, sizeof stages,
+            "  - name: pull\n    solver: {dynamic: {duration: 60 s, mass_damping: 0.5 1/s, time_step: {auto: {safety: "
+            "0.1}}}}\n    loads:\n      - face_displacement: {set: x-, x: 0 m}\n      - face_velocity: {set: x+, x: "
+            "1e-4 m/s}\n      - face_displacement: {set: y-, y: 0 m}\n      - face_velocity: {set: y+, y: %s m/s}\n"
+            "    initial:\n      - velocity: {gradient: {x: [1e-4 1/s, 0, 0], y: [0, %s 1/s, 0]}}\n",
+            along[k], along[k]);
+        open_case(&c, (case_options){.materials = TWINS("0"),
+                                     .regions = TWIN_HALF,
+                                     .sets = WEAK_PLANE("1e-6"),
+                                     .fill = "cells: [6, 3, 3], spread: 0 %, seed: 1",
+                                     .stages = stages});
+        begin_first(&c);
+        run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
+        const brc_softening_report report = softening_now(&c);
+        print_message("pulled along by %s: spent %.6f of G_c A\n", along[k], report.spent / 1e-6);
+        assert_int_equal(report.n_ended, 9);
+        assert_true(fabs(report.spent / 1e-6 - 1) < 0.01);
+        close_case(&c);
+    }
+}
+
 /* A zig-zag crack costs by its projection: cells of a 90 % noisy grid along a weak plane. The asked ten percent. */
 static void a_rough_crack_costs_its_fracture_energy_by_its_projection(void **state)
 {
@@ -439,6 +471,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_crack_costs_its_fracture_energy),
+        cmocka_unit_test(a_pull_along_a_crack_does_not_cheapen_it),
         cmocka_unit_test(a_rough_crack_costs_its_fracture_energy_by_its_projection),
         cmocka_unit_test(faces_open_within_half_a_percent_of_the_strength),
         cmocka_unit_test(force_is_the_gradient_of_the_energy_whatever_is_open),
