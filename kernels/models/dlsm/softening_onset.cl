@@ -126,7 +126,8 @@ LAW coeff soft_cosine(failure_stress mean, soft_vector normal, soft_vector axis,
     const coeff one = failure_larger(whole.first, 0), two = failure_larger(whole.second, 0),
                 three = failure_larger(whole.third, 0),
                 most = one * a.first * a.first + two * a.second * a.second + three * a.third * a.third;
-    const coeff x = one < most ? one : most, y = two < most ? two : most, z = three < most ? three : most;
+    const coeff per = most > 0 ? REAL(1) / most : REAL(0), x = one < most ? per * one : REAL(1),
+                y = two < most ? per * two : REAL(1), z = three < most ? per * three : REAL(1);
     const soft_vector pulled = {x * x * a.first, y * y * a.second, z * z * a.third};
     const coeff length = SQRT(soft_dot(pulled, pulled)),
                 across = SOFT_ABS(pulled.x * n.first + pulled.y * n.second + pulled.z * n.third);
@@ -403,7 +404,8 @@ LAW failure_stress soft_sways(int e, OWN(int) row_start, OWN(int) neighbour, OWN
         const coeff part = REAL(1);
         (void)plane, (void)modulus;
 #endif
-        m = soft_add_square(m, REAL(0.5) * own * inv_volume[j] * part * soft_dot(s, s), d);
+        const coeff size = SQRT(soft_dot(s, s)); /* volumes of small cells, squared, may not fit single precision */
+        m = soft_add_square(m, own * size * (REAL(0.5) * inv_volume[j] * size) * part, d);
     }
     return soft_add_square(soft_add_square(soft_add_square(m, REAL(1), x), REAL(1), y), REAL(1), z);
 }
