@@ -15,9 +15,9 @@ static const double steepest = 0.5;
 static const double screen = 0.7;
 /* Sweeps over the open faces a step, each with the forces at its openings; and the part of the stiffness, estimated
  * from above, that they take. Of openings whose stiffness is x times the estimate they leave (1 - x / stiffen)^n: n is
- * even, as below 0 the openings outrun their cells, which are pushed on; thin cells with round walls have x up to 1.2,
- * and above 2 stiffen more is left than there was. What is left costs energy in quick cracks
- * (docs/notebook/fracture.md). */
+ * even, as below 0 the openings outrun their cells, which are pushed on; above 2 stiffen more is left than there was.
+ * Most bodies have x below 1.2, one of forty thin rings 1.47. What is left costs energy in quick cracks
+ * (bench/results/2026-11-29-sweeps.md). */
 enum { N_SWEEPS = 4 };
 static const double stiffen = 0.7;
 /* Openings over the length of the bond from which on the sides of a broken face stand clear of each other. */
