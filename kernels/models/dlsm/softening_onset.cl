@@ -247,11 +247,11 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
         }
     }
     if (!(worst > most)) return 0;
-    const int turned = across.stress < REAL(0.5) * worst;
+    const int turned = across.stress<REAL(0.5) * worst, joint = SOFT_NUMBER(entry, COSINE)> 0;
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
+    SOFT_NUMBER(entry, COSINE) = turned || joint ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
     soft_put(crack, (int)entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
     return 1;
 }

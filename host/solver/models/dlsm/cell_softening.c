@@ -157,6 +157,7 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
         if (h < 0 || !brc_domain_has(d, d->neighbour[d->twin[h]])) continue;
         crack[WIDTH * k + ENERGY] = strengths->energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
         crack[WIDTH * k + EXPONENTIAL] = strengths->exponential[d->bond[h]];
+        crack[WIDTH * k + COSINE] = strengths->joint[d->bond[h]]; /* softening_record.cl */
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
     for (int32_t r = 0; r < layout->n_rows; ++r)

@@ -9,6 +9,17 @@
 #define CELLS_FRACTURE "fracture: {criterion: bond-normal}\n"
 /* One material of E 1 Pa, density 1 kg/m^3. */
 #define CELLS_STRENGTH(tension) "  stone: {E: 1 Pa, nu: 0.2, density: 1 kg/m^3, strength: {tension: " tension "}}"
+/* E 1 Pa, density 1 kg/m^3, and strength: {...}. */
+#define CELLS_SOFT(nu, strength) "  stone: {E: 1 Pa, nu: " nu ", density: 1 kg/m^3, strength: {" strength "}}"
+/* Two equal materials on both sides of the plane x = 0.5 m, joined by an interface that is weaker. */
+#define CELLS_TWINS(nu)                                                                                                \
+    "  stone: {E: 1 Pa, nu: " nu ", density: 1 kg/m^3, strength: {tension: 1 Pa}}\n"                                   \
+    "  twin: {E: 1 Pa, nu: " nu ", density: 1 kg/m^3, strength: {tension: 1 Pa}}"
+#define CELLS_TWIN_HALF                                                                                                \
+    "    regions:\n      - {where: {box: {from: [0.5 m, -1 m, -1 m], to: [2 m, 2 m, 2 m]}}, material: twin}\n"
+#define CELLS_WEAK_PLANE(energy)                                                                                       \
+    CELLS_FRACTURE "interactions: {interfaces: [{materials: {first: stone, second: twin, tension: 1e-3 Pa, "           \
+                   "fracture_energy: " energy " J/m^2}}]}\n"
 /* A sudden pull along x, uneven along y so that no two elements are alike. */
 #define CELLS_BURST(steps)                                                                                             \
     "  - name: burst\n    solver: {dynamic: {steps: " #steps                                                           \
