@@ -205,7 +205,7 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
                         coeff ell_one, coeff beta, coeff one_plus_tau, GATHER(coeff) modulus,
                         GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress, GATHER(coeff) flux,
                         GATHER(coeff) bond_part, OWN(coeff) limit, OWN(coeff) shear_limit, PUT(int) mark,
-                        PUT(coeff) measure, PUT(coeff) crack)
+                        PUT(coeff) measure, UPDATE(coeff) crack)
 {
     if (!(limit[entry] < CELLS_NEVER)) return 0;
     const int both = n_open[e] && n_open[neighbour[entry]];
@@ -265,7 +265,7 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
                        OWN(coeff) area, OWN(coeff) ratio, coeff k_one, coeff ell_one, coeff beta, coeff one_plus_tau,
                        GATHER(coeff) modulus, GATHER(state) displacement, GATHER(coeff) gradient, GATHER(coeff) stress,
                        GATHER(coeff) flux, GATHER(coeff) bond_part, OWN(coeff) least, OWN(coeff) limit,
-                       OWN(coeff) shear_limit, PUT(int) mark, PUT(coeff) measure, PUT(coeff) crack, PUT(state) found)
+                       OWN(coeff) shear_limit, PUT(int) mark, PUT(coeff) measure, UPDATE(coeff) crack, PUT(state) found)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const members who = members_of_group(group, row_start);
