@@ -247,7 +247,8 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
         }
     }
     if (!(worst > most)) return 0;
-    const int turned = across.stress<REAL(0.5) * worst, joint = SOFT_NUMBER(entry, COSINE)> 0;
+    const int turned = across.stress < REAL(0.5) * worst;
+    const int joint = SOFT_NUMBER(entry, COSINE) > 0;
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
@@ -449,11 +450,13 @@ KERNEL void soft_count(int n, OWN(int) row_start, OWN(int) neighbour, OWN(coeff)
         n_open[e] = count;
         n_lead[e] = leads;
         least[e] = weakest;
-        reach[e] = !count ? REAL(0)
-                          : failure_larger(sum, soft_together(e,
-                                                              soft_sways(e, row_start, neighbour, alive, area, offset,
-                                                                         inv_volume, plane, modulus),
-                                                              row_start, alive, open, area, inv_shape));
+        reach[e] = sum;
+        if (count) {
+            const failure_stress sways =
+                soft_sways(e, row_start, neighbour, alive, area, offset, inv_volume, plane, modulus);
+            const coeff together = soft_together(e, sways, row_start, alive, open, area, inv_shape);
+            reach[e] = together > sum ? together : sum; /* sum where directions that nothing spans leave no number */
+        }
     }
 }
 
