@@ -36,6 +36,8 @@ static brc_status build_domains(bench_case *c)
                                  .sets = c->scene->sets,
                                  .n_regions = body->n_regions,
                                  .regions = regions,
+                                 .n_cracks = body->n_cracks,
+                                 .cracks = body->cracks,
                                  .tiny_face_threshold = body->tiny_face_threshold};
     memcpy(request.translation, body->translation, sizeof request.translation);
     memcpy(request.rotation, body->rotation, sizeof request.rotation);

@@ -27,7 +27,7 @@ typedef struct case_options {
     const char *materials; /* default one: E 1 Pa, nu 0.2, density 1 kg/m^3, named stone */
     const char *shape;     /* default box of 1 m */
     const char *fill;      /* default "cells: [6, 6, 6], spread: 90 %" */
-    const char *regions;   /* default none */
+    const char *regions;   /* default none; other keys of the body after them */
     const char *sets;
     const char *gravity;
     const char *stages; /* default one dynamic stage of 1 step, time step auto */

@@ -110,12 +110,16 @@ static void shape_matrix(const brc_simulation *s, int64_t e, bool weighted, doub
     }
 }
 
+double brc_geometry_least_span(const brc_simulation *s)
+{
+    return brc_device_get_precision(s->device) == BRC_DOUBLE ? span_threshold : single_span_threshold;
+}
+
 brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refinement refine)
 {
     const brc_layout *layout = s->layout;
     const int slice = layout->slice;
-    const double least_span =
-        brc_device_get_precision(s->device) == BRC_DOUBLE ? span_threshold : single_span_threshold;
+    const double least_span = brc_geometry_least_span(s);
     BRC_LOCAL(s->context, (int64_t)layout->n_rows * 6, double, blocks, "least-squares matrices");
     int64_t flat = 0;
 #pragma omp parallel for schedule(static) reduction(+ : flat)

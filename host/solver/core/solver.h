@@ -164,6 +164,8 @@ brc_status brc_geometry_branches(brc_simulation *s, brc_buffer *buffer);
  * or NULL. */
 typedef void (*brc_shape_refinement)(const brc_simulation *s, int64_t e, double inverse[6]);
 brc_status brc_geometry_shapes(brc_simulation *s, bool weighted, brc_shape_refinement refine);
+/* Directions whose eigenvalue of such a matrix is below this share of the largest are left out [-]. */
+double brc_geometry_least_span(const brc_simulation *s);
 /* Constants of each element, only for several materials. */
 brc_status brc_geometry_materials(brc_simulation *s);
 /* All ranks. Symmetric 3 x 3 preconditioner blocks [n_rows][6]: inverse of sum (S/L) [mu I + (lambda + mu) n n^T]. */

@@ -1,8 +1,9 @@
 /* Forces of pairs of convex cells, and of cells on strikers: history and result as in contact.cl. Energy of a pair W =
  * k_n V^2 / (2 h^3), V the volume of the overlap in the present poses, so that the pressure p = k_n V / h^3 acts on the
  * area vector of the overlap and every force and moment is a gradient of W. h: harmonic mean of the cube roots of the
- * two volumes, that of the element alone at a striker. A dashpot p_v = 2 b sqrt(m k_n / h^3) dV/dt / |a| makes V a
- * linear oscillator whenever V is a power of the depth: b alone decides the restitution. Others than elements: number n
+ * two volumes, that of the element alone at a striker; never more than both bear. A dashpot p_v = 2 b sqrt(m k_n / h^3)
+ * dV/dt / |a| makes V a linear oscillator whenever V is a power of the depth: b alone decides the restitution. Others
+ * than elements: number n
  * + piece. piece_kind: 0 polyhedron, 1 sphere (whose polyhedron meets cells), 2 plane. Of elements and pieces: id, the
  * number of their shape too (convex_overlap.h), size: cube root of the volume (0: a piece), mass (0: does not move),
  * material. */
@@ -74,19 +75,32 @@ LAW convex_overlap contact_overlap_of(contact_two_cells pair, int axis)
     return convex_overlap_after(pair.shape_i, pose_i, pair.shape_j, pose_j, axis);
 }
 
+/* What a surface bears in the time step: the most energy over V^2 / 2, the stiffest tangential spring. */
+typedef struct contact_bearing {
+    state spring, sticking;
+} contact_bearing;
+LAW state contact_at_most(state value, state most) { return value > most ? most : value; }
+LAW contact_bearing contact_bears(GATHER(state) bears, int i, int j)
+{
+    const brc_size a = 2 * (brc_size)i, b = 2 * (brc_size)j;
+    return (contact_bearing){contact_at_most(bears[a], bears[b]), contact_at_most(bears[a + 1], bears[b + 1])};
+}
+
 /* What touching polyhedra do to each other. h: their size [m]; heavy: their mass [kg]; is_element: the other one is no
  * striker. */
 LAW void contact_press_cells(contact_two_cells pair, convex_overlap over, contact_law how, state h, state heavy,
-                             state dt, int broke, int affine, int is_element, UPDATE(state) past, UPDATE(state) out)
+                             contact_bearing most, state dt, int broke, int affine, int is_element, UPDATE(state) past,
+                             UPDATE(state) out)
 {
     const int width = affine ? 9 : 3, looked = past[14] > 0;
     const svec3 area = svec3_of(over.area), branch = pair.branch;
     const state surface = svec3_length(area), cube = h * h * h;
-    const state modulus = how.stiffness > 0 ? how.stiffness / h : how.modulus, spring = modulus / cube;
+    const state modulus = how.stiffness > 0 ? how.stiffness / h : how.modulus,
+                spring = contact_at_most(modulus / cube, most.spring);
     const state rate = dt > 0 ? (looked ? (over.volume - past[9]) / dt : STATE(0)) : past[10];
     const state elastic = spring * over.volume;
     const state viscous = contact_dashpot(elastic, STATE(2) * SQRT_STATE(heavy * spring) / surface, how.damping, rate);
-    const state pressure = elastic + viscous, sticking = how.tangential * modulus * h;
+    const state pressure = elastic + viscous, sticking = contact_at_most(how.tangential * modulus * h, most.sticking);
     const svec3 n_out = svec3_scale(STATE(-1) / surface, area), point = svec3_of(over.point),
                 arm_j = svec3_sub(point, branch);
     svec3 slip = {0, 0, 0}, stretch = {0, 0, 0};
@@ -153,10 +167,10 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
                           GATHER(state) place, GATHER(state) displacement, GATHER(coeff) gradient,
                           GATHER(state) orientation, GATHER(state) corner, GATHER(state) plane, GATHER(int) loop_start,
                           GATHER(int) loop, GATHER(state) radius, GATHER(int) corner_start, GATHER(int) face_start,
-                          GATHER(int) id, GATHER(state) size, GATHER(state) mass, GATHER(int) material,
-                          GATHER(int) piece_striker, GATHER(int) piece_kind, GATHER(state) striker_pose,
-                          GATHER(state) law, GATHER(int) rigid, GATHER(state) way, UPDATE(state) history,
-                          PUT(int) touch, UPDATE(state) result)
+                          GATHER(int) id, GATHER(state) size, GATHER(state) mass, GATHER(state) bears,
+                          GATHER(int) material, GATHER(int) piece_striker, GATHER(int) piece_kind,
+                          GATHER(state) striker_pose, GATHER(state) law, GATHER(int) rigid, GATHER(state) way,
+                          UPDATE(state) history, PUT(int) touch, UPDATE(state) result)
 {
     FOR_EACH_ITEM(item, n_items) {
         const int p = whole ? item : todo[item];
@@ -209,7 +223,8 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
                 const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
                 const state h = size[j] > 0 ? STATE(2) * size[i] * size[j] / (size[i] + size[j]) : size[i],
                             heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
-                contact_press_cells(pair, over, how, h, heavy, dt, broke, affine, j < n, past, out);
+                contact_press_cells(pair, over, how, h, heavy, contact_bears(bears, i, j), dt, broke, affine, j < n,
+                                    past, out);
             }
         }
     }

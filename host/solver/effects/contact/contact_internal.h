@@ -39,9 +39,9 @@ struct brc_contact_state {
     double middle[3]; /* of the domain: places are relative to it [m] */
     int32_t n_pieces; /* of strikers */
     double span;      /* how far from the middle elements are expected [m] */
-    /* of rows; id, material, mass and size also of pieces, after them */
-    brc_buffer *place, *bounding_radius, *id, *body, *material, *mass, *size_of, *original, *exposed, *built, *posed,
-        *clear;
+    /* of rows; id, material, mass, size and bears also of pieces, after them */
+    brc_buffer *place, *bounding_radius, *id, *body, *material, *mass, *size_of, *bears, *original, *exposed, *built,
+        *posed, *clear;
     /* polyhedra (convex_overlap.h) and pieces */
     brc_buffer *corner, *plane, *loop_start, *loop, *radius, *corner_start, *face_start;
     brc_buffer *piece_striker, *piece_kind, *piece_radius, *piece_own, *piece;
@@ -146,6 +146,12 @@ brc_status brc_contact_shapes(brc_simulation *s);
 brc_status brc_contact_rigid_create(brc_simulation *s);
 /* Cells without bonds become rigid. */
 brc_status brc_contact_detach(brc_simulation *s);
+
+/* ---- contact_step.c ---- */
+/* What surfaces of elements bear in the time step, [n_rows + pieces][2]: the most energy of an overlap over V^2 / 2
+ * [N/m^5], and the stiffest tangential spring [N/m]. Cells whose neighbours span little to one side, or whose faces are
+ * wide beside their volume, would want a smaller step for springs as stiff as the solid. All ranks. */
+brc_status brc_contact_bears(const brc_simulation *s, double *out);
 
 /* ---- contact.c ---- */
 /* Elements that lost bonds are exposed; who lost one since the last time is c->fresh. */
