@@ -1,6 +1,7 @@
 /* Running the stages of a scene: one simulation, or one for each of its models with one clock. The first part keeps the
  * clock, is the one that is interrupted, and its observers hear of the whole. */
 #include "lockstep.h"
+#include "cut_sides.h"
 #include "run_internal.h"
 
 /* All parts take the shortest of their steps. */
@@ -65,6 +66,8 @@ static brc_status run_stages(int32_t n, brc_simulation *const *part, brc_state_s
         const brc_status status = run_stage(n, part, own);
         first->run->step_seconds += brc_clock_s() - start;
         BRC_TRY(status);
+        for (int32_t k = 0; k < n; ++k)
+            BRC_TRY(brc_cut_sides_tell(part[k]));
         if (frames) BRC_TRY(brc_notify_frame(first));
         for (int k = 0; k < first->run->n_observers; ++k)
             if (first->run->observers[k].stage_end)
