@@ -336,6 +336,7 @@ static brc_status check_rest(brc_reader *reader)
         if (!reader->scene->strikers[k].is_plane) check_shape(reader, &reader->scene->strikers[k].shape);
     brc_reader_check_contact(reader);
     BRC_TRY(check_stages(reader));
+    brc_reader_check_models(reader);
     brc_reader_check_sensors(reader);
     brc_reader_check_output(reader);
     return BRC_OK;

@@ -74,6 +74,8 @@ brc_status brc_names_add_body_sets(brc_reader *reader, const brc_wall_names *wal
 void brc_reader_check_fracture(brc_reader *reader);
 /* reader_check_contact.c: contact and stages, strikers, sensors of contact. */
 void brc_reader_check_contact(brc_reader *reader);
+/* reader_check_models.c: what stages ask of models. */
+void brc_reader_check_models(brc_reader *reader);
 /* reader_check_output.c: views of pictures. */
 void brc_reader_check_output(brc_reader *reader);
 /* Does a load prescribe a motion of faces or elements? */

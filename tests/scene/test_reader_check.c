@@ -289,6 +289,32 @@ static void a_static_stage_has_no_velocities_and_ends_at_one(void **state)
     bad_scene(HEAD DYNAMIC "      - traction: {set: x+, x: 1 Pa, table: [[0, 0], [0.5, 1]]}\n", "13:55", "has no unit");
 }
 
+#define BEAMS                                                                                                          \
+    "version: 1\nmodel: cbm\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies:\n  - name: cube\n    "       \
+    "shape: "                                                                                                          \
+    "{box: {size: [1 m, 1 m, 1 m]}}\n    fill: {packing: {radius: 60 mm}}\n    beams: 8\n"
+
+/* What no model of the scene can do is told of before anything is built. */
+static void stages_ask_of_models_what_they_can_do(void **state)
+{
+    (void)state;
+    bad_scene(HEAD DYNAMIC "      - face_displacement: {set: x+, x: 1 um}\nmodel: dlsm-published\n", "13:9",
+              "model dlsm-published moves whole elements; use element_displacement");
+    bad_scene(HEAD DYNAMIC "      - face_velocity: {set: x+, x: 1 m/s}\nmodel: dlsm-published\n", "13:9",
+              "use element_velocity");
+    bad_scene(HEAD DYNAMIC "      - element_rotation: {set: cube, x: 0}\n", "13:9",
+              "elements of model dlsm have no rotations of their own");
+    bad_scene(HEAD STATIC "      - element_rotation: {set: cube, x: 0}\nmodel: dlsm-published\n", "13:9",
+              "are not solved for in this stage");
+    bad_scene(BEAMS "stages: [{name: a, solver: {dynamic: {steps: 3, time_step: published}}}]\n", "9:60",
+              "the published rule is one for cells, model cbm has none");
+    bad_scene(HEAD "gravity: [0, 0, -9.81 m/s^2]\nstages:\n  - name: pull\n    solver: {static: {events: {most: 3}}}\n",
+              "12:38", "gravity does not follow");
+    assert_int_equal(count_errors(HEAD DYNAMIC "      - element_rotation: {set: cube, x: 0}\nmodel: dlsm-published\n"),
+                     0);
+    assert_int_equal(count_errors(BEAMS STATIC "      - element_rotation: {set: cube, x: 0}\n"), 0);
+}
+
 static void names_of_stages_and_bodies_are_unique(void **state)
 {
     (void)state;
@@ -376,6 +402,7 @@ int main(void)
         cmocka_unit_test(predicates_that_hold_nowhere_are_refused),
         cmocka_unit_test(overlapping_prescribed_components_are_refused),
         cmocka_unit_test(a_static_stage_has_no_velocities_and_ends_at_one),
+        cmocka_unit_test(stages_ask_of_models_what_they_can_do),
         cmocka_unit_test(names_of_stages_and_bodies_are_unique),
         cmocka_unit_test(modes_that_are_not_computed_have_no_sensor),
         cmocka_unit_test(measures_ask_for_fitting_sensors),
