@@ -247,10 +247,6 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
     for (int32_t k = 0; k < n; ++k)
         for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l)
             v.moves |= is_motion(&brc_current_stage(part[k])->loads[l]);
-    if (s->scene->has_gravity)
-        return BRC_FAIL(s->context, BRC_BAD_INPUT,
-                        "stage '%s': events scale the load, which gravity does not follow; leave out gravity",
-                        stage->name);
     BRC_TRY(BRC_ALLOCATE(s->context, &before, n, "events"));
     for (int32_t k = 0; first == 0 && k < n; ++k)
         brc_clock_set_load(part[k], 1);

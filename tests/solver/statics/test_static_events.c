@@ -328,7 +328,6 @@ static void loads_that_do_not_scale_are_refused(void **state)
     refuse(EVENTS("events: 5", "      - element_displacement: {set: x-, x: 0}\n"
                                "      - element_displacement: {set: x+, x: 1 um, table: [[0, 0], [0.5, 1], [1, 1]]}\n"),
            "cannot follow a table");
-    refuse("gravity: [0, 0, -9.81 m/s^2]\n" PULLED("events: 5", "10 um"), "leave out gravity");
     refuse(PULLED("events: 5", "0 m"), "comes nearer to failure");
 }
 

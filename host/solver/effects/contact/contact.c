@@ -59,6 +59,7 @@ brc_status brc_contact_create(brc_simulation *s)
     s->contact->pose = (int)s->model->surface;
     brc_contact_check_speed(s);
     BRC_TRY(brc_contact_setup(s));
+    BRC_TRY(brc_contact_set_bearing(s));
     s->contact->is_linear = s->scene->contact.spheres == BRC_SPHERES_LINEAR;
     BRC_TRY(make_passes(s));
     BRC_TRY(brc_contact_shapes(s));

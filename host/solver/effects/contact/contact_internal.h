@@ -148,10 +148,10 @@ brc_status brc_contact_rigid_create(brc_simulation *s);
 brc_status brc_contact_detach(brc_simulation *s);
 
 /* ---- contact_step.c ---- */
-/* What surfaces of elements bear in the time step, [n_rows + pieces][2]: the most energy of an overlap over V^2 / 2
- * [N/m^5], and the stiffest tangential spring [N/m]. Cells whose neighbours span little to one side, or whose faces are
- * wide beside their volume, would want a smaller step for springs as stiff as the solid. All ranks. */
-brc_status brc_contact_bears(const brc_simulation *s, double *out);
+/* What surfaces of elements bear in the time step, c->bears [n_rows + pieces][2]: the most energy of an overlap over
+ * V^2 / 2 [N/m^5], and the stiffest tangential spring [N/m]. Cells whose neighbours span little to one side, or whose
+ * faces are wide beside their volume, would want a smaller step for springs as stiff as the solid. All ranks. */
+brc_status brc_contact_set_bearing(brc_simulation *s);
 
 /* ---- contact.c ---- */
 /* Elements that lost bonds are exposed; who lost one since the last time is c->fresh. */

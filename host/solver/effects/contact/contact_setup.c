@@ -181,10 +181,6 @@ static brc_status upload_rows(brc_simulation *s, int32_t *number, double *value)
     for (int32_t p = 0; p < np; ++p)
         value[n + p] = 0;
     BRC_TRY(brc_upload_state(s, c->size_of, value, n + np));
-    if (c->bears) {
-        BRC_TRY(brc_contact_bears(s, value));
-        BRC_TRY(brc_upload_state(s, c->bears, value, 2 * ((int64_t)n + np)));
-    }
     BRC_TRY(find_reaches(s, value));
     BRC_TRY(brc_upload_state(s, c->bounding_radius, value, n));
     for (int32_t r = 0; r < n; ++r)

@@ -193,7 +193,7 @@ static double yields(const brc_simulation *s, int64_t e, const double g[6], int6
     return sum + own * own / brc_mass_of_element(s, e);
 }
 
-/* The limits that a face of cell e sets: out as brc_contact_bears. */
+/* The limits that a face of cell e sets: out as contact_bearing (contact_cells.cl). */
 static void bear_face(const brc_simulation *s, int64_t e, const double g[6], int64_t lost, const double *area,
                       const double *centroid, double most, double out[2])
 {
@@ -217,15 +217,11 @@ static void bear_cell(const brc_simulation *s, int64_t e, double most, double ou
         bear_face(s, e, g, h, d->area_vector + 3 * h, d->face_centroid + 3 * h, most, out);
 }
 
-brc_status brc_contact_bears(const brc_simulation *s, double *out)
+/* Of elements [n_elements][2]. */
+static brc_status find_bearing(const brc_simulation *s, double *bears)
 {
     const brc_domain *d = s->domain;
     double most = 0;
-    BRC_LOCAL(s->context, 2 * d->n_elements, double, bears, "limits of contact");
-    for (int64_t k = 0; k < 2 * ((int64_t)s->layout->n_rows + s->contact->n_pieces); ++k)
-        out[k] = endless;
-    if (!s->contact->affine)
-        return BRC_OK; /* flat rigid cells have up to 2.8 times that of a cube, and no neighbours */
     for (int64_t e = 0; e < d->n_elements; ++e) {
         double k = s->elastic[s->material_of_element[e]].young * cbrt(d->volume[e]);
         for (int32_t other = 0; other < s->scene->n_materials; ++other)
@@ -237,9 +233,22 @@ brc_status brc_contact_bears(const brc_simulation *s, double *out)
         bears[2 * e] = bears[2 * e + 1] = endless;
         if (brc_domain_mine(d, e) && d->row_start[e + 1] > d->row_start[e]) bear_cell(s, e, most, bears + 2 * e);
     }
-    if (d->here) BRC_TRY(brc_domain_elements(s->context, d, 2, bears));
-    for (int32_t r = 0; r < s->layout->n_rows; ++r)
-        for (int k = 0; k < 2 && s->layout->element_of_row[r] >= 0; ++k)
-            out[2 * (int64_t)r + k] = bears[2 * (int64_t)s->layout->element_of_row[r] + k];
-    return BRC_OK;
+    return d->here ? brc_domain_elements(s->context, d, 2, bears) : BRC_OK;
+}
+
+brc_status brc_contact_set_bearing(brc_simulation *s)
+{
+    const brc_contact_state *c = s->contact;
+    const int64_t n = s->layout->n_rows, solids = n + c->n_pieces;
+    if (!c->bears) return BRC_OK;
+    BRC_LOCAL(s->context, 2 * s->domain->n_elements, double, bears, "stiffness that surfaces bear");
+    BRC_LOCAL(s->context, 2 * solids, double, value, "stiffness that surfaces bear");
+    if (c->affine)
+        BRC_TRY(find_bearing(s, bears)); /* rigid cells: thin ones have 2.8 times a cube's, and no neighbours */
+    for (int64_t r = 0; r < solids; ++r) {
+        const int32_t e = r < n ? s->layout->element_of_row[r] : -1;
+        for (int k = 0; k < 2; ++k)
+            value[2 * r + k] = e >= 0 && c->affine ? bears[2 * (int64_t)e + k] : endless;
+    }
+    return brc_upload_state(s, c->bears, value, 2 * solids);
 }

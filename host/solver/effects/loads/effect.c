@@ -72,17 +72,13 @@ static brc_status work(brc_simulation *s, const brc_occasion *now)
     return BRC_OK;
 }
 
-static const brc_hooked hooked[] = {{.hook = BRC_HOOK_ENTER, .call = enter},
-                                    {.hook = BRC_HOOK_LEAVE, .plain = leave},
-                                    {.hook = BRC_HOOK_STORE, .call = store},
-                                    {.hook = BRC_HOOK_STRETCH, .call = store},
-                                    {.hook = BRC_HOOK_CONSTRAIN, .call = constrain},
-                                    {.hook = BRC_HOOK_PLACE, .call = place},
-                                    {.hook = BRC_HOOK_OPEN_STEP, .call = open_step},
-                                    {.hook = BRC_HOOK_CLOSE, .call = close_step},
-                                    {.hook = BRC_HOOK_FORCE, .order = BRC_FORCE_OF_LOADS, .call = push},
-                                    {.hook = BRC_HOOK_BOOK, .call = book},
-                                    {.hook = BRC_HOOK_LEDGER, .call = work}};
+static const brc_hooked hooked[] = {
+    {.hook = BRC_HOOK_ENTER, .call = enter},      {.hook = BRC_HOOK_BEGIN, .plain = brc_loads_tell_jumps},
+    {.hook = BRC_HOOK_LEAVE, .plain = leave},     {.hook = BRC_HOOK_STORE, .call = store},
+    {.hook = BRC_HOOK_STRETCH, .call = store},    {.hook = BRC_HOOK_CONSTRAIN, .call = constrain},
+    {.hook = BRC_HOOK_PLACE, .call = place},      {.hook = BRC_HOOK_OPEN_STEP, .call = open_step},
+    {.hook = BRC_HOOK_CLOSE, .call = close_step}, {.hook = BRC_HOOK_FORCE, .order = BRC_FORCE_OF_LOADS, .call = push},
+    {.hook = BRC_HOOK_BOOK, .call = book},        {.hook = BRC_HOOK_LEDGER, .call = work}};
 const brc_effect brc_held_faces_effect = {
     .name = "prescribed faces",
     .in = faces,

@@ -123,9 +123,10 @@ static brc_status find_places(brc_simulation *s, const brc_set *set, const brc_h
 }
 
 /* Entries of one load; velocity loads start from where the face is now. */
-static brc_status create_load(brc_simulation *s, const brc_load *load, const brc_set *set, const brc_held_faces *held,
-                              brc_held_load *entry)
+static brc_status create_load(brc_simulation *s, const brc_stage *stage, const brc_load *load, const brc_set *set,
+                              const brc_held_faces *held, brc_held_load *entry)
 {
+    const bool moves = load->kind == BRC_LOAD_FACE_VELOCITY;
     const int64_t count = set->n_members;
     BRC_FREED int32_t *face = NULL;
     entry->n = (int32_t)count;
@@ -134,11 +135,14 @@ static brc_status create_load(brc_simulation *s, const brc_load *load, const brc
     BRC_TRY(BRC_ALLOCATE(s->context, &face, count, "held load"));
     BRC_LOCAL(s->context, count, int32_t, flag, "held load");
     BRC_LOCAL(s->context, 3 * count, double, direction, "held load");
-    if (load->kind == BRC_LOAD_FACE_VELOCITY) BRC_TRY(find_places(s, set, held, now));
+    if (moves || stage->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(find_places(s, set, held, now));
     for (int64_t m = 0; m < count; ++m) {
         face[m] = held->index_of_free_face[set->members[m]];
         flag[m] = brc_load_components(load);
         brc_load_direction(load, s->domain->free_centroid + 3 * (int64_t)set->members[m], direction + 3 * m);
+        if (!moves) entry->jump = fmax(entry->jump, brc_load_jump(load, direction + 3 * m, now + 3 * m));
+        for (int c = 0; c < 3 && !moves; ++c)
+            now[3 * m + c] = 0;
     }
     BRC_TRY(brc_load_fields_create(s, &brc_held_load_fields, count, entry));
     BRC_TRY(brc_upload_int(entry->face, face, count));
@@ -157,7 +161,7 @@ static brc_status create_loads(brc_simulation *s, const brc_stage *stage, brc_he
         if (!set) return status;
         brc_held_load *entry = held->loads + held->n_loads++;
         entry->load = l;
-        BRC_TRY(create_load(s, stage->loads + l, set, held, entry));
+        BRC_TRY(create_load(s, stage, stage->loads + l, set, held, entry));
     }
     return BRC_OK;
 }

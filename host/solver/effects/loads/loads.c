@@ -91,7 +91,8 @@ static brc_status create_prescribed(brc_simulation *s, const brc_stage *stage, i
     BRC_LOCAL(s->context, 3 * (int64_t)n, double, base, "imposed elements");
     BRC_LOCAL(s->context, 3 * (int64_t)n, double, direction, "imposed elements");
     BRC_LOCAL(s->context, 3 * d->n_elements, double, now, "imposed elements");
-    if (load->kind == BRC_LOAD_ELEMENT_VELOCITY) BRC_TRY(brc_simulation_displacement(s, now));
+    const bool moves = load->kind == BRC_LOAD_ELEMENT_VELOCITY;
+    BRC_TRY(brc_simulation_displacement(s, now));
     out->load = l;
     out->n = n;
     out->component_bits = brc_load_components(load);
@@ -103,8 +104,9 @@ static brc_status create_prescribed(brc_simulation *s, const brc_stage *stage, i
         if (taken[e] & flag[i]) ++twice;
         taken[e] |= flag[i];
         brc_load_direction(load, d->position + 3 * e, direction + 3 * (int64_t)i);
+        if (!moves) out->jump = fmax(out->jump, brc_load_jump(load, direction + 3 * (int64_t)i, now + 3 * e));
         for (int c = 0; c < 3; ++c)
-            base[3 * (int64_t)i + c] = now[3 * e + c];
+            base[3 * (int64_t)i + c] = moves ? now[3 * e + c] : 0;
     }
     if (twice) return brc_loads_refuse_twice(s, stage, load, twice);
     BRC_TRY(upload_prescribed(s, out, element, flag, base));

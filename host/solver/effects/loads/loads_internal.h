@@ -8,7 +8,8 @@
 typedef struct brc_held_load {
     int32_t load; /* index into the stage's loads */
     int32_t n;
-    double factor;                                   /* that the faces are at; NAN: not known */
+    double factor; /* that the faces are at; NAN: not known */
+    double jump;   /* displacements: the farthest a face stands from where the stage puts it at its start [m] */
     brc_buffer *face, *component, *base, *direction; /* [n], [n][3] ... */
 } brc_held_load;
 typedef struct brc_held_faces {
@@ -34,6 +35,7 @@ typedef struct brc_prescribed_load {
     double last_rate;
     int32_t *element_id; /* [n] host */
     int32_t component_bits;
+    double jump; /* as of held faces */
     brc_buffer *element, *component, *base, *direction, *reaction, *last, *last_reaction, *work;
 } brc_prescribed_load;
 typedef struct brc_push_load { /* dead forces on elements (element_loads.c) */
@@ -88,6 +90,12 @@ brc_status brc_loads_zero_prescribed(brc_simulation *s, brc_buffer *vector);
 brc_status brc_loads_zero_turned(brc_simulation *s, brc_buffer *vector);
 /* Work of all loads of this stage so far [J]. */
 brc_status brc_loads_work(brc_simulation *s, double *out);
+
+/* ---- jumps.c ---- */
+/* How far a displacement at the start of its stage is from `now`, in the components of the load [m]. */
+double brc_load_jump(const brc_load *load, const double direction[3], const double now[3]);
+/* A dynamic stage begins: warns of displacements that move what they hold at once. */
+brc_status brc_loads_tell_jumps(brc_simulation *s);
 
 /* ---- load_values.c: what loads say ---- */
 /* value + gradient (x - origin), in the components of the load; its components as bits 1 2 4. */
