@@ -16,14 +16,13 @@ double brc_load_jump(const brc_load *load, const double direction[3], const doub
 static void tell(const brc_simulation *s, const brc_load *load, double jump)
 {
     const double size = s->domain->quality.mean_spacing;
-    const bool faces = load->kind == BRC_LOAD_FACE_DISPLACEMENT;
+    const char *what = load->kind == BRC_LOAD_FACE_DISPLACEMENT ? "face" : "element";
     if (!(jump > told * size)) return;
     brc_log(s->context, BRC_LOG_WARNING,
-            "stage '%s': %s begins up to %.3g m from where '%s' stands, and all of that is gone in the first step (a "
-            "strain of %.2g across an element): let it grow from there by a `table`, or hold what is there with "
-            "`%s: {set: %s, x: 0}`",
-            brc_current_stage(s)->name, faces ? "face_displacement" : "element_displacement", jump, load->set,
-            jump / size, faces ? "face_velocity" : "element_velocity", load->set);
+            "stage '%s': %s_displacement begins up to %.3g m from where '%s' stands, and all of that is gone in the "
+            "first step (a strain of %.2g across an element): let it grow from there by a `table`, or hold what is "
+            "there with `%s_velocity: {set: %s, x: 0}`",
+            brc_current_stage(s)->name, what, jump, load->set, jump / size, what, load->set);
 }
 
 brc_status brc_loads_tell_jumps(brc_simulation *s)
