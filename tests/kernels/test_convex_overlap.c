@@ -317,6 +317,33 @@ static void foot_within_a_box_is_on_its_nearest_face(void **state)
                 0.5);
 }
 
+/* A run that went wrong has cells whose places are no numbers, or so large that their products are none: no overlap of
+ * them may be looked for without end. */
+static void places_that_are_no_numbers_end_too(void **state)
+{
+    (void)state;
+    uint64_t random = 7;
+    int refused = 0;
+    convex_case a, b;
+    convex_case_box(&a, 1, 1, 1);
+    convex_case_box(&b, 1, 1, 1);
+    for (int k = 0; k < 200000; ++k) {
+        convex_pose pose[2];
+        for (int i = 0; i < 2; ++i) {
+            const double large = pow(10, 154 * (1 + convex_case_number(&random))),
+                         far = pow(10, 154 * (1 + convex_case_number(&random)));
+            double *const map = &pose[i].map.xx, *const origin = &pose[i].origin.x;
+            for (int c = 0; c < 9; ++c)
+                map[c] = large * convex_case_number(&random);
+            for (int c = 0; c < 3; ++c)
+                origin[c] = k % 2 ? far * convex_case_number(&random) : 0;
+            if (k % 3 == 0) map[k / 3 % 9] = k % 4 ? NAN : INFINITY;
+        }
+        refused += convex_overlap_of(convex_case_shape(&a), pose[0], convex_case_shape(&b), pose[1]).failed == 2;
+    }
+    assert_true(refused > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -331,6 +358,7 @@ int main(void)
         cmocka_unit_test(box_on_a_wall_is_cut_where_it_sinks_in),
         cmocka_unit_test(foot_of_a_sphere_is_the_nearest_point),
         cmocka_unit_test(foot_within_a_box_is_on_its_nearest_face),
+        cmocka_unit_test(places_that_are_no_numbers_end_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

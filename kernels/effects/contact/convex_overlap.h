@@ -159,7 +159,7 @@ ROUTINE void convex_clip(convex_polygon *p, convex_plane cut, int closed)
         p->n = 0;
         return;
     }
-    if (n >= CONVEX_POLYGON) {
+    if (n >= CONVEX_POLYGON || !(low <= high)) { /* places that are no numbers are on no side of any plane */
         p->failed = 2;
         return;
     }
