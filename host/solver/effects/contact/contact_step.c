@@ -119,7 +119,7 @@ void brc_contact_check_step(const brc_simulation *s, const char *stage, double t
 
 static const double least_left = 0.05; /* of what holds a cell along a branch without its bond: less, and breaks take
                                           the cell off (models/dlsm/breaks.c) */
-static const double endless = 1e30;    /* a limit that nothing reaches; finite in single precision [N/m, N/m^5] */
+static const double endless = 3e38;    /* a limit that nothing reaches; finite in single precision [N/m, N/m^5] */
 
 /* omega^2 of a surface alone, over that of a whole face of a cube that is as stiff as the solid, or stiffer by the laws
  * given: what the bonds' part of the step, some five times that, and its safety leave to spare
