@@ -312,6 +312,12 @@ static void stages_ask_of_models_what_they_can_do(void **state)
               "12:38", "gravity does not follow");
     assert_int_equal(count_errors(HEAD DYNAMIC "      - element_rotation: {set: cube, x: 0}\nmodel: dlsm-published\n"),
                      0);
+    bad_scene("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\nbodies: [{domain: d.h5, model: "
+              "dlsm-published}]\n" DYNAMIC "      - face_velocity: {set: x+, x: 1 m/s}\n",
+              "8:9", "model dlsm-published moves whole elements"); /* the body's, not the scene's */
+    assert_int_equal(count_errors("version: 1\nmaterials: {g: {E: 1 Pa, nu: 0, density: 1 kg/m^3}}\n" DYNAMIC
+                                  "      - element_rotation: {set: cube, x: 0}\n"),
+                     1); /* no bodies: that alone */
     assert_int_equal(count_errors(BEAMS STATIC "      - element_rotation: {set: cube, x: 0}\n"), 0);
 }
 

@@ -138,6 +138,18 @@ const char *heard(void)
     return text;
 }
 
+const char *heard_of_run(case_options options)
+{
+    bench_case c;
+    open_case(&c, options);
+    brc_log_set_level(c.context, BRC_LOG_WARNING);
+    begin_listening();
+    assert_done(&c, brc_simulation_run(c.simulation));
+    const char *said = heard();
+    close_case(&c);
+    return said;
+}
+
 void begin_first(bench_case *c)
 {
     assert_done(c, brc_simulation_begin_stage(c->simulation, 0));

@@ -48,6 +48,8 @@ void assert_done(bench_case *c, brc_status status);
 /* From here on what is logged is kept, until it is asked for: in static storage. */
 void begin_listening(void);
 const char *heard(void);
+/* What is warned of while all stages of a scene run; likewise. */
+const char *heard_of_run(case_options options);
 /* Enter the first stage; take steps and wait for them. */
 void begin_first(bench_case *c);
 void run_steps(bench_case *c, int64_t n_steps);

@@ -1,5 +1,4 @@
 /* Cuts whose sides end in each other are told of, with how far and the cure. */
-#include "../../../host/base/log.h"
 #include "../support.h"
 #include <stdio.h>
 #include <string.h>
@@ -15,14 +14,7 @@
 /* What is said of a run. */
 static const char *said_of(const char *stages, const char *keys)
 {
-    bench_case c;
-    open_case(&c, (case_options){.regions = CUT, .stages = stages, .gravity = keys, .n_threads = 1});
-    brc_log_set_level(c.context, BRC_LOG_WARNING);
-    begin_listening();
-    assert_done(&c, brc_simulation_run(c.simulation));
-    const char *said = heard();
-    close_case(&c);
-    return said;
+    return heard_of_run((case_options){.regions = CUT, .stages = stages, .gravity = keys, .n_threads = 1});
 }
 
 /* Either half follows what holds it, as nothing joins them: 10 mm, exactly. */

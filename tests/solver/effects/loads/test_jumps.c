@@ -1,5 +1,4 @@
 /* Displacements that begin elsewhere than what they hold stands are told of, with how far and the cure. */
-#include "../../../../host/base/log.h"
 #include "../../support.h"
 #include <string.h>
 
@@ -9,17 +8,10 @@
 
 static const char *said_of(const char *stages)
 {
-    bench_case c;
-    open_case(&c, (case_options){.fill = "cells: [4, 4, 4], spread: 90 %",
-                                 .stages = stages,
-                                 .sets = "sets: {end: {elements: {wall: x+}}}\n",
-                                 .n_threads = 1});
-    brc_log_set_level(c.context, BRC_LOG_WARNING);
-    begin_listening();
-    assert_done(&c, brc_simulation_run(c.simulation));
-    const char *said = heard();
-    close_case(&c);
-    return said;
+    return heard_of_run((case_options){.fill = "cells: [4, 4, 4], spread: 90 %",
+                                       .stages = stages,
+                                       .sets = "sets: {end: {elements: {wall: x+}}}\n",
+                                       .n_threads = 1});
 }
 
 static void what_snaps_is_told_of(void **state)
