@@ -11,6 +11,7 @@
 #include "../output/recorder.h"
 #include "../solver/statics/free_bodies.h"
 #include "../solver/run/lockstep.h"
+#include <math.h>
 #include <string.h>
 
 static const char *const file_names[BRC_RUN_FILES] = {"summary.json",         "result.h5",     "histories.csv",
@@ -84,6 +85,21 @@ static brc_status take_results(brc_context *context, const run *now, brc_run_res
     return BRC_OK;
 }
 
+/* A run whose energies do not add up went wrong somewhere, however well it ended. Sound ones stay below 2 %. */
+static void tell_ledger(brc_context *context, const brc_assembly *assembly, const brc_ledger *ledger)
+{
+    static const double most = 0.05;
+    for (int32_t k = 0; k < assembly->n; ++k)
+        if (!brc_simulation_conserves(assembly->part[k])) return;
+    if (fabs(ledger->closure) <= most) return;
+    brc_log(
+        context, BRC_LOG_WARNING,
+        "the energy ledger is off by %.3g %% in the end: what was put in, what is there and what was lost do not add "
+        "up, so figures of this run are not to be trusted; see whether they stay with a smaller time step "
+        "(`time_step: {auto: {safety: 0.4}}`); `guard: {closure: 5 %%}` ends such a run where it begins",
+        100 * ledger->closure);
+}
+
 /* Up to the end of the simulation; what failed is told by the status, what was made is in *now. */
 static brc_status simulate(brc_context *context, const brc_run_request *request, run *now, brc_run_results *out)
 {
@@ -133,6 +149,7 @@ static brc_status simulate(brc_context *context, const brc_run_request *request,
     if (request->running) request->running(NULL);
     BRC_TRY(status);
     BRC_TRY(brc_assembly_ledger(assembly, &out->ledger));
+    tell_ledger(context, assembly, &out->ledger);
     return request->finished ? request->finished(request->self, first) : BRC_OK;
 }
 

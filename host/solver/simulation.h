@@ -139,6 +139,8 @@ typedef struct brc_ledger {
 } brc_ledger;
 /* Evaluated now (a pass over the elements). */
 brc_status brc_simulation_ledger(brc_simulation *simulation, brc_ledger *out);
+/* Its law has an energy: the ledger of a sound run closes. */
+bool brc_simulation_conserves(const brc_simulation *simulation);
 /* Total and closure from the other terms. */
 void brc_ledger_close(brc_ledger *ledger);
 /* Value of a term by its name in brc_sensor.term; NAN for an unknown name. */

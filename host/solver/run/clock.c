@@ -31,6 +31,7 @@ BRC_READ(int64_t, brc_simulation_total_steps, s->run->total_steps)
 BRC_READ(double, brc_simulation_setup_seconds, s->run->setup_seconds)
 BRC_READ(double, brc_simulation_step_seconds, s->run->step_seconds)
 BRC_READ(brc_time_step, brc_simulation_time_step, s->run->time_step)
+BRC_READ(bool, brc_simulation_conserves, s->model->conserves)
 
 double brc_simulation_time(const brc_simulation *s)
 {

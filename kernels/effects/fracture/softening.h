@@ -105,7 +105,7 @@ LAW lane soft_secant(soft_face f, lane w)
 /* What is left of the energy of a face whose normal has the cosine c_onset to the principal axis at its onset and c_now
  * to the opening: an area of crack is that of its projection along the opening, which only shows once it opens (at the
  * onset the stress near a crack leans towards the normal). Not less than steepest, so that a face that only slides
- * keeps a cost, and not more than at the onset. */
+ * keeps a cost, and not more than at the onset. c_onset below 0, in an interface: all of it. */
 LAW lane soft_tilt(lane c_onset, lane c_now, coeff steepest)
 {
     const lane c = soft_above(c_now, steepest);

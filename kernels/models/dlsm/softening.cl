@@ -132,7 +132,7 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
         const lane_vec3 found = soft_balance(
             law, r.widest, drive, stiffness, soft_secant(law, lane_max(soft_size(before), r.widest)), axis, before,
             friction, carried, retention * soft_keeps(r.widest, REAL(2) * soft_end(law)) * soft_size(carried));
-        const lane_vec3 now = lane_vec3_where(slides, found, soft_outside(found, normal));
+        const lane_vec3 now = lane_vec3_where(slides | soft_in_interface(r), found, soft_outside(found, normal));
         const lane w = soft_size(now),
                    even = soft_above(-lane_vec3_dot(pull, axis), 0) / (f.ratio * LANE_SQRT(soft_size(s)));
         const lane_vec3 side_before = soft_rows(edge_opening, f.entry);

@@ -96,6 +96,8 @@ LAW soft_record soft_record_of(GATHER(coeff) crack, lane_int entry)
 }
 LAW soft_face soft_law_of(soft_record r) { return (soft_face){r.start, r.energy * r.tilt, r.exponential}; }
 LAW lane_mask soft_slides(soft_record r) { return LANE_LESS(lane_number(1), r.turns); }
+/* Of interfaces, whose sides bear on each other across their smooth plane alone. */
+LAW lane_mask soft_in_interface(soft_record r) { return LANE_LESS(r.cosine, LANE_ZERO); }
 /* More than a tenth of what the cohesion held at the onset. push: soft_carried. */
 LAW lane_mask soft_is_pushed(soft_record r, lane_vec3 push)
 {
@@ -263,3 +265,29 @@ LAW void soft_put_numbers(SCATTER(coeff) crack, int entry, int other, int what, 
 }
 /* Of one lane. */
 #define SOFT_LANE(a, l) ((soft_vector){LANE_ITEM((a).x, l), LANE_ITEM((a).y, l), LANE_ITEM((a).z, l)})
+
+LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
+/* A direction of the present body as it was in the undeformed one, of small strains: by the transpose. */
+LAW soft_vector soft_turned_back(GATHER(coeff) gradient, int i, int j, soft_vector a)
+{
+    GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
+    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[3] + q[3]) * a.y + (p[6] + q[6]) * a.z,
+                             (p[1] + q[1]) * a.x + (p[4] + q[4]) * a.y + (p[7] + q[7]) * a.z,
+                             (p[2] + q[2]) * a.x + (p[5] + q[5]) * a.y + (p[8] + q[8]) * a.z};
+    return soft_add(a, REAL(0.5), sum);
+}
+/* A direction of the undeformed body as it is now. */
+LAW soft_vector soft_turned_on(GATHER(coeff) gradient, int i, int j, soft_vector a)
+{
+    GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
+    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[1] + q[1]) * a.y + (p[2] + q[2]) * a.z,
+                             (p[3] + q[3]) * a.x + (p[4] + q[4]) * a.y + (p[5] + q[5]) * a.z,
+                             (p[6] + q[6]) * a.x + (p[7] + q[7]) * a.y + (p[8] + q[8]) * a.z};
+    return soft_add(a, REAL(0.5), sum);
+}
+/* Normal of the interface that the face of an entry lies in, as it is now; of no use elsewhere. */
+#define SOFT_IN_INTERFACE(entry) (SOFT_NUMBER(entry, COSINE) < 0)
+LAW soft_vector soft_interface_at(GATHER(coeff) crack, brc_size entry, GATHER(coeff) gradient, int i, int j)
+{
+    return soft_unit(soft_turned_on(gradient, i, j, soft_part(crack, entry, SOFT_AXIS)));
+}

@@ -3,14 +3,19 @@
  * (docs/notebook/theory.md T10, T11). shear_limit [n_slots][C]: 2 c cos phi of the bond, below 0 along an interface,
  * whose faces slide on their own planes [Pa]; shear_energy: G_II S [J]; both are read only where `shears`. */
 
+/* What a stress lays on the plane across n [Pa]. */
+LAW soft_vector soft_on_plane(failure_stress a, soft_vector n)
+{
+    return (soft_vector){a.xx * n.x + a.xy * n.y + a.xz * n.z, a.xy * n.x + a.yy * n.y + a.yz * n.z,
+                         a.xz * n.x + a.yz * n.y + a.zz * n.z};
+}
+
 /* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n
  * + n (x) t - (t.n) n (x) n, t that traction less that of the mean. So a bond that bridges an open crack, between cells
  * without stress, is seen to be pulled. n: unit normal. */
 LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_vector n)
 {
-    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z),
-                           traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
-                           traction.z - (mean.xz * n.x + mean.yz * n.y + mean.zz * n.z)};
+    const soft_vector t = soft_add(traction, REAL(-1), soft_on_plane(mean, n));
     const soft_vector m = soft_add(t, REAL(-0.5) * soft_dot(t, n), n);
     return (failure_stress){mean.xx + REAL(2) * m.x * n.x,   mean.yy + REAL(2) * m.y * n.y,
                             mean.zz + REAL(2) * m.z * n.z,   mean.yz + m.y * n.z + m.z * n.y,
@@ -39,7 +44,6 @@ LAW int soft_possible(failure_stress stress, coeff edge, coeff limit, coeff shea
            failure_possible(stress, (failure_limits){limit, 0, shear}, (failure_shear){0, slope, slope});
 }
 
-LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
 /* The same number in every lane; that of the first. */
 LAW lane_vec3 soft_lanes(soft_vector a) { return (lane_vec3){LANE_ZERO + a.x, LANE_ZERO + a.y, LANE_ZERO + a.z}; }
 LAW failure_stress soft_first(lane_sym3 a)
@@ -52,16 +56,6 @@ LAW lane_sym3 soft_spread(failure_stress a)
     return (lane_sym3){LANE_ZERO + a.xx, LANE_ZERO + a.yy, LANE_ZERO + a.zz,
                        LANE_ZERO + a.yz, LANE_ZERO + a.xz, LANE_ZERO + a.xy};
 }
-/* A direction of the present body as it was in the undeformed one, of small strains: by the transpose. */
-LAW soft_vector soft_turned_back(GATHER(coeff) gradient, int i, int j, soft_vector a)
-{
-    GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
-    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[3] + q[3]) * a.y + (p[6] + q[6]) * a.z,
-                             (p[1] + q[1]) * a.x + (p[4] + q[4]) * a.y + (p[7] + q[7]) * a.z,
-                             (p[2] + q[2]) * a.x + (p[5] + q[5]) * a.y + (p[8] + q[8]) * a.z};
-    return soft_add(a, REAL(0.5), sum);
-}
-
 /* One face whose openings are all 0: the force of the bond and how unevenly its sides pull [N], soft_sides_apart, its
  * area vector and the mean stress in the present frame. */
 typedef struct {
@@ -220,7 +214,9 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
                        shears ? share * shear_limit[entry] : REAL(0), slope))
         return 0;
     const failure_principal largest = failure_principal_of(whole);
-    const soft_tension across = soft_across(largest, normal, steepest);
+    const int joint = SOFT_IN_INTERFACE(entry);
+    const soft_vector facing = joint ? soft_interface_at(crack, entry, gradient, e, neighbour[entry]) : normal;
+    const soft_tension across = soft_across(largest, facing, steepest);
     const soft_vector axis = across.axis;
     const coeff c = across.cosine, size = SOFT_ABS(c);
     const coeff most = share * limit[entry];
@@ -233,14 +229,16 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     const int bends = edge > first;
     const coeff worst = bends ? edge : first;
     if (shears) {
-        const failure_state slip = soft_slip(largest, traction, normal, share * shear_limit[entry], slope);
+        const failure_state slip =
+            soft_slip(largest, soft_on_plane(whole, facing), facing, share * shear_limit[entry], slope);
         const soft_vector plane = soft_slip_plane(slip, normal);
-        const coeff leans = soft_dot(plane, normal);
+        const coeff leans = joint ? REAL(1) : soft_dot(plane, normal);
         const int nearer = slip.ratio * most >= worst;
         if (slip.ratio > REAL(1) && nearer && !(leans < steepest)) {
             mark[entry] = SOFT_WISH;
             measure[entry] = slip.stress;
             SOFT_NUMBER(entry, TURNS) = SOFT_SLIDES;
+            if (joint) return 1;
             SOFT_NUMBER(entry, COSINE) = leans;
             soft_put(crack, (int)entry, SOFT_AXIS, plane);
             return 1;
@@ -248,11 +246,11 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     }
     if (!(worst > most)) return 0;
     const int turned = across.stress < REAL(0.5) * worst;
-    const int joint = SOFT_NUMBER(entry, COSINE) > 0;
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-    SOFT_NUMBER(entry, COSINE) = turned || joint ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
+    if (joint) return 1;
+    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
     soft_put(crack, (int)entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
     return 1;
 }
@@ -340,8 +338,10 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
             const soft_whole at = soft_whole_at(soft_face_of(e, entry, neighbour, area, ratio), k_one, ell_one, beta,
                                                 one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
             const soft_vector force = at.force, uneven = at.uneven;
-            const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1),
-                                               soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
+            const int joint = SOFT_IN_INTERFACE(entry);
+            const soft_vector now = joint ? soft_interface_at(crack, entry, gradient, e, j)
+                                          : soft_scale(from == entry ? REAL(1) : REAL(-1),
+                                                       soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
             const lane_vec3 along = soft_lanes(now), normal = soft_lanes(at.normal);
             const lane_vec3 goes_on = slides ? soft_passed(soft_spread(at.mean), along, normal)
                                              : soft_carried(soft_spread(at.mean), along, normal);
@@ -356,9 +356,9 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
             const int mine = (int)entry, its = (int)other;
             const soft_vector side = slides ? (soft_vector){0, 0, 0} : uneven;
             open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
-            soft_put(crack, mine, SOFT_AXIS, axis);
+            if (!joint) soft_put(crack, mine, SOFT_AXIS, axis);
             soft_put_number(crack, mine, SOFT_START, size);
-            soft_put_number(crack, mine, SOFT_ENERGY, whole * c);
+            soft_put_number(crack, mine, SOFT_ENERGY, whole * SOFT_ABS(c));
             soft_put_number(crack, mine, SOFT_COSINE, c);
             soft_put_number(crack, mine, SOFT_TILT, REAL(1));
             soft_put_numbers(crack, mine, its, SOFT_TURNS, turns);

@@ -1,15 +1,11 @@
-/* What contact and the time step bear of each other: the step that touching pairs allow, and how soft surfaces are that
- * would want a smaller one. */
-#include "../../../../preprocess/domain/domain_rows.h"
-#include "../../core/sym3.h"
+/* The time step that touching pairs allow. */
 #include "../strikers/striker_contact.h"
 #include "contact_internal.h"
 #include <math.h>
 
 static const double sphere_depth = 0.1; /* CONTACT_DEPTH of contact_law.h */
 
-/* Stiffest normal spring of element e against material `other` [N/m]. */
-static double stiffest_normal(const brc_simulation *s, int64_t e, int32_t other)
+double brc_contact_stiffest_normal(const brc_simulation *s, int64_t e, int32_t other)
 {
     const brc_domain *d = s->domain;
     const double *law = brc_contact_law_of(s, s->material_of_element[e], other);
@@ -25,7 +21,7 @@ static double stiffest(const brc_simulation *s, int64_t e, int32_t other)
 {
     const double *law = brc_contact_law_of(s, s->material_of_element[e], other);
     const double rub = law[4] > 0 ? law[3] : 0;
-    return stiffest_normal(s, e, other) * fmax(1, (brc_has_spheres(s) ? 3.5 : 2.5) * rub);
+    return brc_contact_stiffest_normal(s, e, other) * fmax(1, (brc_has_spheres(s) ? 3.5 : 2.5) * rub);
 }
 
 /* The largest area in which a striker meets the bodies: of the boxes around both, the smaller section across an axis
@@ -113,142 +109,4 @@ void brc_contact_check_step(const brc_simulation *s, const char *stage, double t
             "is asked for; %g steps meet it to two hundredths: "
             "time_step: {auto: {safety: %.2g}}",
             stage, steps, enough, step->safety * steps / enough);
-}
-
-/* ---- surfaces that would want a smaller step ---- */
-
-static const double least_left = 0.05; /* of what holds a cell along a branch without its bond: less, and breaks take
-                                          the cell off (models/dlsm/breaks.c) */
-static const double endless = 3e38;    /* a limit that nothing reaches; finite in single precision [N/m, N/m^5] */
-
-/* omega^2 of a surface alone, over that of a whole face of a cube that is as stiff as the solid, or stiffer by the laws
- * given: what the bonds' part of the step, some five times that, and its safety leave to spare
- * (bench/results/2026-11-29-cuts.md). */
-static double spared(const brc_simulation *s)
-{
-    double safety = 0;
-    for (int32_t k = 0; k < s->scene->n_stages; ++k)
-        if (s->scene->stages[k].solver == BRC_SOLVER_DYNAMIC &&
-            s->scene->stages[k].time_step_rule == BRC_TIME_STEP_AUTO)
-            safety = fmax(safety, s->scene->stages[k].safety);
-    return safety > 0.8 ? 1 : 2;
-}
-
-static void times(const double g[6], const double a[3], double out[3])
-{
-    out[0] = g[0] * a[0] + g[5] * a[1] + g[4] * a[2];
-    out[1] = g[5] * a[0] + g[1] * a[1] + g[3] * a[2];
-    out[2] = g[4] * a[0] + g[3] * a[1] + g[2] * a[2];
-}
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* Of half-edge h of cell e the branch R and S / L. */
-static double branch(const brc_domain *d, int64_t e, int64_t h, double r[3])
-{
-    for (int c = 0; c < 3; ++c)
-        r[c] = d->position[3 * (int64_t)d->neighbour[h] + c] - d->position[3 * e + c];
-    return brc_norm3(d->area_vector + 3 * h) / brc_norm3(r);
-}
-
-/* Inverse of the least-squares matrix A = sum (S / L) R (x) R of cell e. */
-static void inverse_shape(const brc_simulation *s, int64_t e, double g[6])
-{
-    static const int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
-    const brc_domain *d = s->domain;
-    double shape[6] = {0, 0, 0, 0, 0, 0}, r[3];
-    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
-        const double ratio = branch(d, e, h, r);
-        for (int c = 0; c < 6; ++c)
-            shape[c] += ratio * r[row[c]] * r[column[c]];
-    }
-    brc_sym3_pseudo_inverse(shape, brc_geometry_least_span(s), g);
-}
-
-/* 1 / m of a point of cell e at `arm` from its place, which moves by u_e + H arm = sum of c_j u_j: sum of c_j^2 / m_j,
- * c_j = arm . A^-1 s_j, c_e = 1 - sum of c_j [1/kg]. g: A^-1; lost: a half-edge whose bond is gone, or -1. 0: without
- * it the cell does not hold. */
-static double yields(const brc_simulation *s, int64_t e, const double g[6], int64_t lost, const double arm[3])
-{
-    const brc_domain *d = s->domain;
-    double p[3], own = 1, sum = 0;
-    times(g, arm, p);
-    if (lost >= 0) { /* (A - w R (x) R)^-1 = A^-1 + w q (x) q / (1 - w R.q), q = A^-1 R */
-        double r[3], q[3];
-        const double ratio = branch(d, e, lost, r);
-        times(g, r, q);
-        const double left = 1 - ratio * dot(r, q), more = ratio * dot(q, arm) / left;
-        if (left < least_left) return 0;
-        for (int c = 0; c < 3; ++c)
-            p[c] += more * q[c];
-    }
-    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
-        if (h == lost) continue;
-        const double c = dot(p, d->area_vector + 3 * h);
-        own -= c;
-        sum += c * c / brc_mass_of_element(s, d->neighbour[h]);
-    }
-    return sum + own * own / brc_mass_of_element(s, e);
-}
-
-/* The limits that a face of cell e sets: out as contact_bearing (contact_cells.cl). */
-static void bear_face(const brc_simulation *s, int64_t e, const double g[6], int64_t lost, const double *area,
-                      const double *centroid, double most, double out[2])
-{
-    const double *x = s->domain->position + 3 * e, size = brc_norm3(area);
-    const double arm[3] = {centroid[0] - x[0], centroid[1] - x[1], centroid[2] - x[2]};
-    const double yielding = yields(s, e, g, lost, arm);
-    if (!(yielding > 0)) return;
-    const double limit = most / (2 * yielding); /* one spring between two like surfaces */
-    out[0] = fmin(out[0], limit / (size * size));
-    out[1] = fmin(out[1], limit);
-}
-
-static void bear_cell(const brc_simulation *s, int64_t e, double most, double out[2])
-{
-    const brc_domain *d = s->domain;
-    double g[6];
-    inverse_shape(s, e, g);
-    for (int64_t f = d->free_start[e]; f < d->free_start[e + 1]; ++f)
-        bear_face(s, e, g, -1, d->free_area_vector + 3 * f, d->free_centroid + 3 * f, most, out);
-    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1] && s->scene->has_fracture; ++h)
-        bear_face(s, e, g, h, d->area_vector + 3 * h, d->face_centroid + 3 * h, most, out);
-}
-
-/* Of elements [n_elements][2]. */
-static brc_status find_bearing(const brc_simulation *s, double *bears)
-{
-    const brc_domain *d = s->domain;
-    double most = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        double k = s->elastic[s->material_of_element[e]].young * cbrt(d->volume[e]);
-        for (int32_t other = 0; other < s->scene->n_materials; ++other)
-            k = fmax(k, stiffest_normal(s, e, other));
-        most = fmax(most, 4 * spared(s) * k / brc_mass_of_element(s, e));
-    }
-#pragma omp parallel for schedule(static)
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        bears[2 * e] = bears[2 * e + 1] = endless;
-        if (brc_domain_mine(d, e) && d->row_start[e + 1] > d->row_start[e]) bear_cell(s, e, most, bears + 2 * e);
-    }
-    return d->here ? brc_domain_elements(s->context, d, 2, bears) : BRC_OK;
-}
-
-brc_status brc_contact_set_bearing(brc_simulation *s)
-{
-    const brc_contact_state *c = s->contact;
-    const int64_t n = s->layout->n_rows, solids = n + c->n_pieces;
-    if (!c->bears) return BRC_OK;
-    BRC_LOCAL(s->context, 2 * s->domain->n_elements, double, bears, "stiffness that surfaces bear");
-    BRC_LOCAL(s->context, 2 * solids, double, value, "stiffness that surfaces bear");
-    if (c->affine)
-        BRC_TRY(find_bearing(s, bears)); /* rigid cells: thin ones have 2.8 times a cube's, and no neighbours */
-    for (int64_t r = 0; r < solids; ++r) {
-        const int32_t e = r < n ? s->layout->element_of_row[r] : -1;
-        for (int k = 0; k < 2; ++k)
-            value[2 * r + k] = e >= 0 && c->affine ? bears[2 * (int64_t)e + k] : endless;
-    }
-    return brc_upload_state(s, c->bears, value, 2 * solids);
 }

@@ -5,6 +5,7 @@
 #include "../../../base/log.h"
 #include "../../../base/memory.h"
 #include "../../../base/random.h"
+#include "interfaces.h"
 #include <math.h>
 #include <string.h>
 
@@ -155,21 +156,6 @@ static int32_t weaker(const brc_scene *scene, int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-/* The last interface that a bond between elements i and j lies in; -1: none. */
-static int32_t interface_of(const brc_scene *scene, const brc_domain *d, const int32_t *material, int32_t i, int32_t j)
-{
-    for (int32_t k = scene->n_interfaces - 1; k >= 0; --k) {
-        const brc_interface *at = &scene->interfaces[k];
-        if (at->kind == BRC_INTERFACE_GRAINS) {
-            if (d->grain && d->grain[i] != d->grain[j]) return k;
-        } else if ((at->material[0] == material[i] && at->material[1] == material[j]) ||
-                   (at->material[0] == material[j] && at->material[1] == material[i])) {
-            return k;
-        }
-    }
-    return -1;
-}
-
 static brc_status check_interface(brc_context *context, const brc_scene *scene, int32_t k, const brc_material *weak)
 {
     const bool of_elements = !brc_scene_breaks_by_bond(scene, scene->model.kind);
@@ -235,7 +221,7 @@ void brc_strengths_ask(const brc_scene *scene, const brc_domain *d, const int32_
     *weighted = *softens = false;
     for (int64_t b = 0; b < d->n_bonds && !(*weighted && *softens); ++b) {
         const int64_t h = d->bond_half_edge[b];
-        const int32_t i = d->neighbour[d->twin[h]], j = d->neighbour[h], k = interface_of(scene, d, material, i, j);
+        const int32_t i = d->neighbour[d->twin[h]], j = d->neighbour[h], k = brc_interface_of(scene, d, material, i, j);
         const brc_interface *at = k >= 0 ? &scene->interfaces[k] : NULL;
         const brc_material *weak = &scene->materials[weaker(scene, material[i], material[j])];
         *weighted |= weak->scatter.kind != BRC_SCATTER_NONE || interface_factor(at, weak) != 1;
@@ -263,7 +249,7 @@ brc_status brc_strengths_create(brc_context *context, const brc_scene *scene, co
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         const int64_t h = d->bond_half_edge[b];
         const int32_t i = d->neighbour[d->twin[h]], j = d->neighbour[h], m = weaker(scene, material[i], material[j]);
-        const int32_t k = interface_of(scene, d, material, i, j);
+        const int32_t k = brc_interface_of(scene, d, material, i, j);
         const brc_material *weak = &scene->materials[m];
         if (weak->scatter.kind == BRC_SCATTER_FILE && !from_file[m])
             BRC_TRY_OR(cleanup, read_factors(context, scene, weak->scatter.file, d, &from_file[m]));

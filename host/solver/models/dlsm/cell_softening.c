@@ -3,6 +3,7 @@
 #include "../../core/sym3.h"
 #include "../../effects/contact/contact.h"
 #include "../../effects/fracture/crack_range.h"
+#include "../../effects/fracture/interfaces.h"
 #include "../../utilities/scans.h"
 #include "dlsm_internal.h"
 #include <math.h>
@@ -29,7 +30,7 @@ static const double retention = 0.3;
 static const double least_cells = 4;
 
 /* Components of `crack` (softening_record.cl). */
-enum { START = 9, ENERGY = 10, EXPONENTIAL = 11, COSINE = 13, TILT = 14, SPENT = 23, WIDTH = 26 };
+enum { AXIS = 6, START = 9, ENERGY = 10, EXPONENTIAL = 11, COSINE = 13, TILT = 14, SPENT = 23, WIDTH = 26 };
 enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
@@ -144,6 +145,16 @@ static brc_status warn_of_size(brc_simulation *s, const brc_strengths *strengths
     return brc_crack_range_tell(s, "cells");
 }
 
+/* Of a face in an interface; normal: its interface's, as long as their cosine (0: in none), out of this side or not. */
+static void put_plane(double *record, const double normal[3], bool is_outward)
+{
+    const double cosine = brc_norm3(normal);
+    if (!(cosine > 0)) return;
+    record[COSINE] = -cosine; /* softening_record.cl */
+    for (int c = 0; c < 3; ++c)
+        record[AXIS + c] = (is_outward ? 1 : -1) * normal[c] / cosine;
+}
+
 static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)
 {
     const brc_layout *layout = s->layout;
@@ -152,12 +163,14 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     BRC_LOCAL(s->context, WIDTH * n_entries, double, crack, "cohesion of faces");
     BRC_LOCAL(s->context, n_entries, int32_t, lead, "cohesion of faces");
     BRC_LOCAL(s->context, layout->n_rows, double, shear, "shear moduli");
+    BRC_FREED double *normal = NULL;
+    BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, steepest, &normal));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0 || !brc_domain_has(d, d->neighbour[d->twin[h]])) continue;
         crack[WIDTH * k + ENERGY] = strengths->energy[d->bond[h]] * brc_norm3(d->area_vector + 3 * (int64_t)h);
         crack[WIDTH * k + EXPONENTIAL] = strengths->exponential[d->bond[h]];
-        crack[WIDTH * k + COSINE] = strengths->joint[d->bond[h]]; /* softening_record.cl */
+        if (normal) put_plane(crack + WIDTH * k, normal + 3 * (int64_t)d->bond[h], h == d->bond_half_edge[d->bond[h]]);
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
     for (int32_t r = 0; r < layout->n_rows; ++r)
@@ -457,7 +470,7 @@ brc_status brc_softening_find_report(brc_simulation *s, brc_softening_report *ou
     BRC_TRY(brc_domain_faces(s->context, d, out->n_ended, half_edge, face));
     for (int64_t i = 0; i < out->n_ended; ++i) {
         const double *own = crack + WIDTH * (int64_t)ended[i];
-        out->area += own[TILT] * own[COSINE] * brc_norm3(face + 6 * i);
+        out->area += own[TILT] * fabs(own[COSINE]) * brc_norm3(face + 6 * i);
     }
     return BRC_OK;
 }

@@ -63,11 +63,47 @@ static void an_interface_that_opens_askew_costs_its_fracture_energy(void **state
     close_case(&c);
 }
 
+/* A crack that slides along an interface costs its fracture energy too, on its smooth plane, however rough cells make
+ * it: two halves are moved along each other by more than the 20 mm at which the cohesion ends, while their distance is
+ * kept (flat) or the second half is free to rise (rough). */
+static void a_slide_along_an_interface_costs_its_fracture_energy(void **state)
+{
+    (void)state;
+    const struct {
+        const char *fill, *across;
+        double least, most;
+    } cases[] = {{"cells: [6, 3, 3], spread: 0 %, seed: 1", ", x: 0 m/s", 0.99, 1.01},
+                 {"cells: [8, 6, 6], spread: 60 %, seed: 1", "", 0.9, 1.1}};
+    for (int k = 0; k < 2; ++k) {
+        bench_case c;
+        char stages[512];
+        snprintf(stages, sizeof stages,
+                 "  - name: slide\n    solver: {dynamic: {duration: 260 s, mass_damping: 0.5 1/s, time_step: {auto: "
+                 "{safety: 0.3}}}}\n    loads:\n      - face_displacement: {set: x-, x: 0 m, y: 0 m, z: 0 m}\n"
+                 "      - face_velocity: {set: x+, y: 2e-4 m/s, z: 0 m/s%s}\n"
+                 "    initial:\n      - velocity: {gradient: {y: [2e-4 1/s, 0, 0]}}\n",
+                 cases[k].across);
+        open_case(&c, (case_options){.materials = CELLS_TWINS("0"),
+                                     .regions = CELLS_TWIN_HALF,
+                                     .sets = CELLS_WEAK_PLANE("1e-5"),
+                                     .fill = cases[k].fill,
+                                     .stages = stages});
+        begin_first(&c);
+        run_steps(&c, brc_simulation_planned_steps(c.simulation, 0, brc_simulation_time_step(c.simulation).value));
+        const brc_softening_report report = softening_now(&c);
+        print_message("slid, %s: %lld of %lld ended, spent %.4f of G_c A\n", cases[k].fill, (long long)report.n_ended,
+                      (long long)report.n_opened, report.spent / 1e-5);
+        assert_true(report.spent / 1e-5 > cases[k].least && report.spent / 1e-5 < cases[k].most);
+        close_case(&c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_pull_along_a_crack_does_not_cheapen_it),
         cmocka_unit_test(an_interface_that_opens_askew_costs_its_fracture_energy),
+        cmocka_unit_test(a_slide_along_an_interface_costs_its_fracture_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

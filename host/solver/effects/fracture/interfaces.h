@@ -1,0 +1,22 @@
+/* Which interface a bond lies in, and how its face stands to it. */
+#ifndef BRC_SOLVER_INTERFACES_H
+#define BRC_SOLVER_INTERFACES_H
+
+#include "../../../../preprocess/domain/domain.h"
+#include "../../../scene/scene.h"
+
+/* The last interface of the scene that a bond between elements i and j lies in; -1: none. material: [n_elements] index
+ * into scene->materials. */
+int32_t brc_interface_of(const brc_scene *scene, const brc_domain *domain, const int32_t *material, int32_t i,
+                         int32_t j);
+
+/* Normals of interfaces of cells: [n_bonds][3], out of the bond's smaller element, as long as the cosine c between the
+ * face and the interface [-]; 0 of bonds in none; NULL: no bond lies in one; the caller frees with brc_memory_free.
+ * An interface between uneven cells is rough, and a crack along it is as large as its smooth plane: its normal at a
+ * face is the mean of the faces between the same two materials or grains at the cells on one side that share a cell of
+ * the other side with this face. The face's own, c = 1, where these look too many ways for a plane. c is
+ * at least `steepest`. All ranks. BRC_NO_MEMORY. */
+brc_status brc_interface_normals(brc_context *context, const brc_scene *scene, const brc_domain *domain,
+                                 const int32_t *material, double steepest, double **out);
+
+#endif
