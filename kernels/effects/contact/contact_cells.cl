@@ -75,14 +75,15 @@ LAW convex_overlap contact_overlap_of(contact_two_cells pair, int axis)
     return convex_overlap_after(pair.shape_i, pose_i, pair.shape_j, pose_j, axis);
 }
 
-/* What a surface bears in the time step: the most energy over V^2 / 2, the stiffest tangential spring. */
+/* What a surface bears in the time step: the most energy over V^2 / 2, the stiffest tangential spring. bears [n][4]:
+ * both, and both on strikers. */
 typedef struct contact_bearing {
     state spring, sticking;
 } contact_bearing;
 LAW state contact_at_most(state value, state most) { return value > most ? most : value; }
-LAW contact_bearing contact_bears(GATHER(state) bears, int i, int j)
+LAW contact_bearing contact_bears(GATHER(state) bears, int i, int j, int is_element)
 {
-    const brc_size a = 2 * (brc_size)i, b = 2 * (brc_size)j;
+    const brc_size at = is_element ? 0 : 2, a = 4 * (brc_size)i + at, b = 4 * (brc_size)j + at;
     return (contact_bearing){contact_at_most(bears[a], bears[b]), contact_at_most(bears[a + 1], bears[b + 1])};
 }
 
@@ -223,8 +224,8 @@ KERNEL void contact_cells(int n_items, int whole, int broke, state dt, int n, in
                 const contact_law how = contact_law_of(law, n_materials, material[i], material[j]);
                 const state h = size[j] > 0 ? STATE(2) * size[i] * size[j] / (size[i] + size[j]) : size[i],
                             heavy = mass[j] > 0 ? mass[i] * mass[j] / (mass[i] + mass[j]) : mass[i];
-                contact_press_cells(pair, over, how, h, heavy, contact_bears(bears, i, j), dt, broke, affine, j < n,
-                                    past, out);
+                contact_press_cells(pair, over, how, h, heavy, contact_bears(bears, i, j, j < n), dt, broke, affine,
+                                    j < n, past, out);
             }
         }
     }

@@ -193,6 +193,10 @@ LAW soft_tension soft_across(failure_principal at, soft_vector normal, coeff ste
     return (soft_tension){at.third, n.third, {at.third_axis.x, at.third_axis.y, at.third_axis.z}, 0};
 }
 
+/* Along an interface a crack opens across its plane, but for a pull that stands within 30 degrees of its normal: across
+ * that, so that pushes along it go on as everywhere. */
+#define SOFT_ALONG REAL(0.8660254037844386)
+
 /* The bond of one entry of an element, which may have a stress above its limit: 1 where it is marked. */
 LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int shears, coeff slope, OWN(int) row_start,
                         OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio, coeff k_one,
@@ -238,9 +242,8 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
             mark[entry] = SOFT_WISH;
             measure[entry] = slip.stress;
             SOFT_NUMBER(entry, TURNS) = SOFT_SLIDES;
-            if (joint) return 1;
-            SOFT_NUMBER(entry, COSINE) = leans;
-            soft_put(crack, (int)entry, SOFT_AXIS, plane);
+            if (!joint) SOFT_NUMBER(entry, COSINE) = leans;
+            soft_put(crack, (int)entry, SOFT_AXIS, joint ? facing : plane);
             return 1;
         }
     }
@@ -249,9 +252,12 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-    if (joint) return 1;
-    SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
-    soft_put(crack, (int)entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
+    if (!joint)
+        SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
+    soft_put(crack, (int)entry, SOFT_AXIS,
+             joint && (turned || size < SOFT_ALONG) ? facing
+             : turned                               ? normal
+                                                    : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
     return 1;
 }
 
@@ -338,10 +344,8 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
             const soft_whole at = soft_whole_at(soft_face_of(e, entry, neighbour, area, ratio), k_one, ell_one, beta,
                                                 one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
             const soft_vector force = at.force, uneven = at.uneven;
-            const int joint = SOFT_IN_INTERFACE(entry);
-            const soft_vector now = joint ? soft_interface_at(crack, entry, gradient, e, j)
-                                          : soft_scale(from == entry ? REAL(1) : REAL(-1),
-                                                       soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
+            const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1),
+                                               soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
             const lane_vec3 along = soft_lanes(now), normal = soft_lanes(at.normal);
             const lane_vec3 goes_on = slides ? soft_passed(soft_spread(at.mean), along, normal)
                                              : soft_carried(soft_spread(at.mean), along, normal);
@@ -356,7 +360,7 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
             const int mine = (int)entry, its = (int)other;
             const soft_vector side = slides ? (soft_vector){0, 0, 0} : uneven;
             open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
-            if (!joint) soft_put(crack, mine, SOFT_AXIS, axis);
+            soft_put(crack, mine, SOFT_AXIS, axis);
             soft_put_number(crack, mine, SOFT_START, size);
             soft_put_number(crack, mine, SOFT_ENERGY, whole * SOFT_ABS(c));
             soft_put_number(crack, mine, SOFT_COSINE, c);

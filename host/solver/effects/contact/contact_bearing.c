@@ -17,6 +17,12 @@ static const double endless = 3e38;    /* a limit that nothing reaches; finite i
  * fast (bench/results/2026-11-30-slots.md). */
 static const double regular = 0.83, soft = 0.35;
 
+/* On rigid strikers, over that of a whole face of a cube that is as stiff as the solid, or stiffer by the laws given:
+ * at safeties up to 0.8, and above. There surfaces are flat and pressed together, and softer ones press unevenly. */
+static const double at_striker[] = {2, 1};
+
+enum { BORNE = 4 }; /* c->bears of an element */
+
 static void times(const double g[6], const double a[3], double out[3])
 {
     out[0] = g[0] * a[0] + g[5] * a[1] + g[4] * a[2];
@@ -50,20 +56,30 @@ static void inverse_shape(const brc_simulation *s, int64_t e, double g[6])
     brc_sym3_pseudo_inverse(shape, brc_geometry_least_span(s), g);
 }
 
-/* p = A^-1 arm of a point of cell e at `arm` from its place, for which c_j = p.s_j and c_e = 1 - sum of c_j [1/m^2].
- * g: A^-1; lost: a half-edge whose bond is gone, or -1. False: without it the cell does not hold. */
-static bool reach(const brc_domain *d, int64_t e, const double g[6], int64_t lost, const double arm[3], double p[3])
+/* 1 / m of a point of cell e at `arm` from its place, which moves by u_e + H arm = sum of c_j u_j: sum of c_j^2 / m_j,
+ * c_j = arm . A^-1 s_j, c_e = 1 - sum of c_j [1/kg]. g: A^-1; lost: a half-edge whose bond is gone, or -1. 0: without
+ * it the cell does not hold. */
+static double yields(const brc_simulation *s, int64_t e, const double g[6], int64_t lost, const double arm[3])
 {
-    double r[3], q[3];
+    const brc_domain *d = s->domain;
+    double p[3], own = 1, sum = 0;
     times(g, arm, p);
-    if (lost < 0) return true;
-    /* (A - w R (x) R)^-1 = A^-1 + w q (x) q / (1 - w R.q), q = A^-1 R */
-    const double ratio = branch(d, e, lost, r);
-    times(g, r, q);
-    const double left = 1 - ratio * dot(r, q), more = ratio * dot(q, arm) / left;
-    for (int c = 0; c < 3; ++c)
-        p[c] += more * q[c];
-    return left >= least_left;
+    if (lost >= 0) { /* (A - w R (x) R)^-1 = A^-1 + w q (x) q / (1 - w R.q), q = A^-1 R */
+        double r[3], q[3];
+        const double ratio = branch(d, e, lost, r);
+        times(g, r, q);
+        const double left = 1 - ratio * dot(r, q), more = ratio * dot(q, arm) / left;
+        if (left < least_left) return 0;
+        for (int c = 0; c < 3; ++c)
+            p[c] += more * q[c];
+    }
+    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
+        if (h == lost) continue;
+        const double c = dot(p, d->area_vector + 3 * h);
+        own -= c;
+        sum += c * c / brc_mass_of_element(s, d->neighbour[h]);
+    }
+    return sum + own * own / brc_mass_of_element(s, e);
 }
 
 /* ---- springs ---- */
@@ -113,13 +129,27 @@ static double fastest_cube(const brc_simulation *s)
     return most / (safety_of(s) * safety_of(s));
 }
 
+/* omega^2 that surfaces may have on strikers [1/s^2]. */
+static double fastest_at_striker(const brc_simulation *s)
+{
+    const brc_domain *d = s->domain;
+    double most = 0;
+    for (int64_t e = 0; e < d->n_elements; ++e) {
+        double k = s->elastic[s->material_of_element[e]].young * cbrt(d->volume[e]);
+        for (int32_t other = 0; other < s->scene->n_materials; ++other)
+            k = fmax(k, brc_contact_stiffest_normal(s, e, other));
+        most = fmax(most, 4 * at_striker[safety_of(s) > 0.8] * k / brc_mass_of_element(s, e));
+    }
+    return most;
+}
+
 /* Part of a spring that its face keeps. sum: of its row [1/s^2]; two like faces meet: twice it. */
 static double kept(double sum, double cube)
 {
     return 2 * sum > regular * cube ? soft * cube / (2 * sum) : 1;
 }
 /* What a face makes of what its cell bears: of an overlap's energy over V^2 / 2 and of the tangential spring. */
-static void bear(double area, face_springs springs, face_springs sums, double cube, double out[2])
+static void bear(double area, face_springs springs, face_springs sums, double cube, double out[BORNE])
 {
     const double normal = kept(sums.normal, cube), along = kept(sums.along, cube);
     if (normal < 1) out[0] = fmin(out[0], normal * springs.normal / (area * area));
@@ -177,7 +207,7 @@ static void fill_cell(const brc_simulation *s, free_faces *f, int64_t e)
         int64_t to = f->start[k];
         f->springs[k] = springs_of(s, e, brc_norm3(d->free_area_vector + 3 * k));
         f->element[to] = (int32_t)e, f->share[to] = 1, f->face[to] = (int32_t)k;
-        reach(d, e, g, -1, arm, p);
+        times(g, arm, p);
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
             f->share[++to] = dot(p, d->area_vector + 3 * h);
             f->element[to] = d->neighbour[h], f->face[to] = (int32_t)k;
@@ -235,45 +265,50 @@ static brc_status bear_free_faces(const brc_simulation *s, double cube, double *
     if (status == BRC_OK) sort_by_element(d, &f);
     for (int64_t e = 0; e < d->n_elements && status == BRC_OK; ++e) {
         for (int64_t k = d->free_start[e]; k < d->free_start[e + 1] && brc_domain_mine(d, e); ++k)
-            bear(brc_norm3(d->free_area_vector + 3 * k), f.springs[k], row_of(s, &f, k), cube, bears + 2 * e);
+            bear(brc_norm3(d->free_area_vector + 3 * k), f.springs[k], row_of(s, &f, k), cube, bears + BORNE * e);
     }
     free_faces_free(&f);
     return status;
 }
 
-/* ---- faces that are free once their bond is lost ---- */
+/* ---- faces alone ---- */
 
-/* One that touches alone: what its neighbours will have lost then is not known. */
-static void bear_broken_face(const brc_simulation *s, int64_t e, int64_t h, const double g[6], double cube,
-                             double out[2])
+/* Beside strikers, which do not give way, and faces that are free once their bond is lost: what its neighbours will
+ * have lost then is not known. most: omega^2 of a surface that meets a striker [1/s^2]. */
+static void bear_face(const brc_simulation *s, int64_t e, const double g[6], int64_t lost, const double *area,
+                      const double *centroid, double cube, double most, double out[BORNE])
 {
-    const brc_domain *d = s->domain;
-    const double *x = d->position + 3 * e, *c = d->face_centroid + 3 * h, area = brc_norm3(d->area_vector + 3 * h);
-    const double arm[3] = {c[0] - x[0], c[1] - x[1], c[2] - x[2]};
-    const face_springs springs = springs_of(s, e, area);
-    double p[3], own = 1, yields = 0;
-    if (!reach(d, e, g, h, arm, p)) return;
-    for (int64_t k = d->row_start[e]; k < d->row_start[e + 1]; ++k) {
-        if (k == h) continue;
-        const double share = dot(p, d->area_vector + 3 * k);
-        own -= share;
-        yields += share * share / brc_mass_of_element(s, d->neighbour[k]);
-    }
-    yields += own * own / brc_mass_of_element(s, e);
-    bear(area, springs, (face_springs){springs.normal * yields, springs.along * yields}, cube, out);
+    const double *x = s->domain->position + 3 * e, size = brc_norm3(area);
+    const double arm[3] = {centroid[0] - x[0], centroid[1] - x[1], centroid[2] - x[2]};
+    const double yielding = yields(s, e, g, lost, arm);
+    if (!(yielding > 0)) return;
+    const double limit = most / (2 * yielding);
+    out[2] = fmin(out[2], limit / (size * size));
+    out[3] = fmin(out[3], limit);
+    if (lost < 0) return;
+    const face_springs springs = springs_of(s, e, size);
+    bear(size, springs, (face_springs){springs.normal * yielding, springs.along * yielding}, cube, out);
 }
 
-static void bear_broken_faces(const brc_simulation *s, double cube, double *bears)
+static void bear_cell(const brc_simulation *s, int64_t e, double cube, double most, double out[BORNE])
 {
     const brc_domain *d = s->domain;
+    double g[6];
+    inverse_shape(s, e, g);
+    for (int64_t f = d->free_start[e]; f < d->free_start[e + 1]; ++f)
+        bear_face(s, e, g, -1, d->free_area_vector + 3 * f, d->free_centroid + 3 * f, cube, most, out);
+    for (int64_t h = d->row_start[e]; h < d->row_start[e + 1] && s->scene->has_fracture; ++h)
+        bear_face(s, e, g, h, d->area_vector + 3 * h, d->face_centroid + 3 * h, cube, most, out);
+}
+
+static void bear_faces_alone(const brc_simulation *s, double cube, double *bears)
+{
+    const brc_domain *d = s->domain;
+    const double most = fastest_at_striker(s);
 #pragma omp parallel for schedule(static)
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        double g[6];
-        if (!brc_domain_mine(d, e)) continue;
-        inverse_shape(s, e, g);
-        for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h)
-            bear_broken_face(s, e, h, g, cube, bears + 2 * e);
-    }
+    for (int64_t e = 0; e < d->n_elements; ++e)
+        if (brc_domain_mine(d, e) && d->row_start[e + 1] > d->row_start[e])
+            bear_cell(s, e, cube, most, bears + BORNE * e);
 }
 
 /* ---- all ---- */
@@ -298,8 +333,8 @@ static brc_status find_bearing(const brc_simulation *s, double *bears)
     const double cube = fastest_cube(s);
     BRC_TRY(bring_near(s));
     BRC_TRY(bear_free_faces(s, cube, bears));
-    if (s->scene->has_fracture) bear_broken_faces(s, cube, bears);
-    return s->domain->here ? brc_domain_elements(s->context, s->domain, 2, bears) : BRC_OK;
+    bear_faces_alone(s, cube, bears);
+    return s->domain->here ? brc_domain_elements(s->context, s->domain, BORNE, bears) : BRC_OK;
 }
 
 brc_status brc_contact_set_bearing(brc_simulation *s)
@@ -307,16 +342,16 @@ brc_status brc_contact_set_bearing(brc_simulation *s)
     const brc_contact_state *c = s->contact;
     const int64_t n = s->layout->n_rows, solids = n + c->n_pieces;
     if (!c->bears) return BRC_OK;
-    BRC_LOCAL(s->context, 2 * s->domain->n_elements, double, bears, "stiffness that surfaces bear");
-    BRC_LOCAL(s->context, 2 * solids, double, value, "stiffness that surfaces bear");
-    for (int64_t k = 0; k < 2 * s->domain->n_elements; ++k)
+    BRC_LOCAL(s->context, BORNE * s->domain->n_elements, double, bears, "stiffness that surfaces bear");
+    BRC_LOCAL(s->context, BORNE * solids, double, value, "stiffness that surfaces bear");
+    for (int64_t k = 0; k < BORNE * s->domain->n_elements; ++k)
         bears[k] = endless;
     if (c->affine)
         BRC_TRY(find_bearing(s, bears)); /* rigid cells: thin ones have 2.8 times a cube's, and no neighbours */
     for (int64_t r = 0; r < solids; ++r) {
         const int32_t e = r < n ? s->layout->element_of_row[r] : -1;
-        for (int k = 0; k < 2; ++k)
-            value[2 * r + k] = e >= 0 && c->affine ? bears[2 * (int64_t)e + k] : endless;
+        for (int k = 0; k < BORNE; ++k)
+            value[BORNE * r + k] = e >= 0 && c->affine ? bears[BORNE * (int64_t)e + k] : endless;
     }
-    return brc_upload_state(s, c->bears, value, 2 * solids);
+    return brc_upload_state(s, c->bears, value, BORNE * solids);
 }

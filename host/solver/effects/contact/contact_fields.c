@@ -37,7 +37,7 @@ static const brc_field_row rows[] = {
     BRC_FIELD(material, each_solid, 1, INT, NULL, "materials of elements", "-"),
     BRC_FIELD(mass, each_solid, 1, STATE, NULL, "masses of elements", "kg"),
     {"size", each_solid, 1, BRC_FIELD_STATE, NULL, AT(size_of), "sizes of elements", "m", BRC_NOT_KEPT},
-    BRC_FIELD(bears, each_solid, 2, STATE, brc_wants_cells, "stiffness that surfaces bear", "N/m^5, N/m"),
+    BRC_FIELD(bears, each_solid, 4, STATE, brc_wants_cells, "stiffness that surfaces bear", "N/m^5, N/m"),
     BRC_FIELD(bounding_radius, brc_each_row, 1, STATE, NULL, "radii of elements", "m"),
     BRC_FIELD(place, brc_each_row, 3, STATE, NULL, "places of elements", "m"),
     BRC_KEPT_FIELD(exposed, brc_each_row, 1, INT, NULL, "exposed elements", "-", "contact.exposed"),

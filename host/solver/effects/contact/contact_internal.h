@@ -152,9 +152,10 @@ brc_status brc_contact_detach(brc_simulation *s);
 double brc_contact_stiffest_normal(const brc_simulation *s, int64_t e, int32_t other);
 
 /* ---- contact_bearing.c ---- */
-/* What surfaces of elements bear in the time step, c->bears [n_rows + pieces][2]: the most energy of an overlap over
- * V^2 / 2 [N/m^5], and the stiffest tangential spring [N/m]. Cells whose neighbours span little to one side, or whose
- * faces are wide beside their volume, would want a smaller step for springs as stiff as the solid. All ranks. */
+/* What surfaces of elements bear in the time step, c->bears [n_rows + pieces][4]: the most energy of an overlap over
+ * V^2 / 2 [N/m^5], and the stiffest tangential spring [N/m], between elements and the same on strikers. Cells whose
+ * neighbours span little to one side, or whose faces are wide beside their volume, would want a smaller step for
+ * springs as stiff as the solid. All ranks. */
 brc_status brc_contact_set_bearing(brc_simulation *s);
 
 /* ---- contact.c ---- */
