@@ -289,5 +289,5 @@ LAW soft_vector soft_turned_on(GATHER(coeff) gradient, int i, int j, soft_vector
 #define SOFT_IN_INTERFACE(entry) (SOFT_NUMBER(entry, COSINE) < 0)
 LAW soft_vector soft_interface_at(GATHER(coeff) crack, brc_size entry, GATHER(coeff) gradient, int i, int j)
 {
-    return soft_unit(soft_turned_on(gradient, i, j, soft_part(crack, entry, SOFT_AXIS)));
+    return soft_unit(soft_turned_on(gradient, i, j, soft_part(crack, entry, SOFT_SHIFT)));
 }

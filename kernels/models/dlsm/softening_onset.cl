@@ -3,19 +3,14 @@
  * (docs/notebook/theory.md T10, T11). shear_limit [n_slots][C]: 2 c cos phi of the bond, below 0 along an interface,
  * whose faces slide on their own planes [Pa]; shear_energy: G_II S [J]; both are read only where `shears`. */
 
-/* What a stress lays on the plane across n [Pa]. */
-LAW soft_vector soft_on_plane(failure_stress a, soft_vector n)
-{
-    return (soft_vector){a.xx * n.x + a.xy * n.y + a.xz * n.z, a.xy * n.x + a.yy * n.y + a.yz * n.z,
-                         a.xz * n.x + a.yz * n.y + a.zz * n.z};
-}
-
 /* The stress at a bond [Pa]: the mean of its cells, but with the traction that the bond itself carries: mean + t (x) n
  * + n (x) t - (t.n) n (x) n, t that traction less that of the mean. So a bond that bridges an open crack, between cells
  * without stress, is seen to be pulled. n: unit normal. */
 LAW failure_stress soft_stress(failure_stress mean, soft_vector traction, soft_vector n)
 {
-    const soft_vector t = soft_add(traction, REAL(-1), soft_on_plane(mean, n));
+    const soft_vector t = {traction.x - (mean.xx * n.x + mean.xy * n.y + mean.xz * n.z),
+                           traction.y - (mean.xy * n.x + mean.yy * n.y + mean.yz * n.z),
+                           traction.z - (mean.xz * n.x + mean.yz * n.y + mean.zz * n.z)};
     const soft_vector m = soft_add(t, REAL(-0.5) * soft_dot(t, n), n);
     return (failure_stress){mean.xx + REAL(2) * m.x * n.x,   mean.yy + REAL(2) * m.y * n.y,
                             mean.zz + REAL(2) * m.z * n.z,   mean.yz + m.y * n.z + m.z * n.y,
@@ -128,6 +123,16 @@ LAW coeff soft_cosine(failure_stress mean, soft_vector normal, soft_vector axis,
     return failure_larger(length > 0 ? across / length : REAL(0), steepest);
 }
 
+/* What a stress lays on the plane across n [Pa]. */
+LAW soft_vector soft_on_plane(failure_principal at, soft_vector n)
+{
+    const soft_cosines c = soft_cosines_of(at, n);
+    const coeff x = at.first * c.first, y = at.second * c.second, z = at.third * c.third;
+    return (soft_vector){x * at.first_axis.x + y * at.second_axis.x + z * at.third_axis.x,
+                         x * at.first_axis.y + y * at.second_axis.y + z * at.third_axis.y,
+                         x * at.first_axis.z + y * at.second_axis.z + z * at.third_axis.z};
+}
+
 /* Pull along an axis on the projection of a face across it [Pa]: in an even stress, and its axis, the largest principal
  * value, and more where the stress at the face leans from the axis towards the normal. Pushes count for nothing, as
  * they go on along a crack; nor do faces more than 45 degrees off, on which a slide along the crack counts for more
@@ -193,10 +198,6 @@ LAW soft_tension soft_across(failure_principal at, soft_vector normal, coeff ste
     return (soft_tension){at.third, n.third, {at.third_axis.x, at.third_axis.y, at.third_axis.z}, 0};
 }
 
-/* Along an interface a crack opens across its plane, but for a pull that stands within 30 degrees of its normal: across
- * that, so that pushes along it go on as everywhere. */
-#define SOFT_ALONG REAL(0.8660254037844386)
-
 /* The bond of one entry of an element, which may have a stress above its limit: 1 where it is marked. */
 LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int shears, coeff slope, OWN(int) row_start,
                         OWN(int) neighbour, GATHER(int) n_open, OWN(coeff) area, OWN(coeff) ratio, coeff k_one,
@@ -210,17 +211,17 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     const soft_vector s = soft_row(area, entry);
     const soft_whole now = soft_whole_at(soft_face_of(e, entry, neighbour, area, ratio), k_one, ell_one, beta,
                                          one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
-    const soft_vector force = now.force, normal = soft_unit(now.normal);
+    const soft_vector force = now.force, own = soft_unit(now.normal);
     const soft_vector traction = soft_scale(REAL(1) / SQRT(soft_dot(s, s)), force);
-    const failure_stress whole = soft_stress(now.mean, traction, normal);
-    const coeff edge = both ? soft_edge(now.uneven, now.apart, force, normal, s, ratio[entry]) : REAL(0);
+    const failure_stress whole = soft_stress(now.mean, traction, own);
+    const coeff edge = both ? soft_edge(now.uneven, now.apart, force, own, s, ratio[entry]) : REAL(0);
     if (!soft_possible(whole, edge, SOFT_DRAWN_LEAST * share * limit[entry],
                        shears ? share * shear_limit[entry] : REAL(0), slope))
         return 0;
     const failure_principal largest = failure_principal_of(whole);
-    const int joint = SOFT_IN_INTERFACE(entry);
-    const soft_vector facing = joint ? soft_interface_at(crack, entry, gradient, e, neighbour[entry]) : normal;
-    const soft_tension across = soft_across(largest, facing, steepest);
+    const soft_vector normal = /* of what may crack */
+        SOFT_IN_INTERFACE(entry) ? soft_interface_at(crack, entry, gradient, e, neighbour[entry]) : own;
+    const soft_tension across = soft_across(largest, normal, steepest);
     const soft_vector axis = across.axis;
     const coeff c = across.cosine, size = SOFT_ABS(c);
     const coeff most = share * limit[entry];
@@ -234,16 +235,16 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     const coeff worst = bends ? edge : first;
     if (shears) {
         const failure_state slip =
-            soft_slip(largest, soft_on_plane(whole, facing), facing, share * shear_limit[entry], slope);
+            soft_slip(largest, soft_on_plane(largest, normal), normal, share * shear_limit[entry], slope);
         const soft_vector plane = soft_slip_plane(slip, normal);
-        const coeff leans = joint ? REAL(1) : soft_dot(plane, normal);
+        const coeff leans = soft_dot(plane, normal);
         const int nearer = slip.ratio * most >= worst;
         if (slip.ratio > REAL(1) && nearer && !(leans < steepest)) {
             mark[entry] = SOFT_WISH;
             measure[entry] = slip.stress;
             SOFT_NUMBER(entry, TURNS) = SOFT_SLIDES;
-            if (!joint) SOFT_NUMBER(entry, COSINE) = leans;
-            soft_put(crack, (int)entry, SOFT_AXIS, joint ? facing : plane);
+            if (!SOFT_IN_INTERFACE(entry)) SOFT_NUMBER(entry, COSINE) = leans;
+            soft_put(crack, (int)entry, SOFT_AXIS, plane);
             return 1;
         }
     }
@@ -252,12 +253,9 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     mark[entry] = SOFT_WISH;
     measure[entry] = worst;
     SOFT_NUMBER(entry, TURNS) = turned ? REAL(1) : REAL(0);
-    if (!joint)
+    if (!SOFT_IN_INTERFACE(entry))
         SOFT_NUMBER(entry, COSINE) = turned ? REAL(1) : soft_cosine(now.mean, normal, axis, worst, size, steepest);
-    soft_put(crack, (int)entry, SOFT_AXIS,
-             joint && (turned || size < SOFT_ALONG) ? facing
-             : turned                               ? normal
-                                                    : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
+    soft_put(crack, (int)entry, SOFT_AXIS, turned ? normal : soft_scale(c < 0 ? REAL(-1) : REAL(1), axis));
     return 1;
 }
 
@@ -313,6 +311,14 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
     }
 }
 
+/* Axis of a crack along an interface: across its plane, but for a pull that stands within 30 degrees of its normal:
+ * across that, so that pushes along it go on as everywhere. turned: by a moment, or by sliding. */
+#define SOFT_ALONG REAL(0.8660254037844386)
+LAW soft_vector soft_along_interface(soft_vector axis, int turned, soft_vector normal)
+{
+    return turned || soft_dot(axis, normal) < SOFT_ALONG ? normal : axis;
+}
+
 /* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to
  * break. */
 KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(int) lead, OWN(coeff) area,
@@ -344,8 +350,11 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
             const soft_whole at = soft_whole_at(soft_face_of(e, entry, neighbour, area, ratio), k_one, ell_one, beta,
                                                 one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
             const soft_vector force = at.force, uneven = at.uneven;
-            const soft_vector now = soft_scale(from == entry ? REAL(1) : REAL(-1),
-                                               soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
+            const soft_vector wished = soft_scale(from == entry ? REAL(1) : REAL(-1),
+                                                  soft_part(crack, from, SOFT_AXIS)), /* seen from this side */
+                now = SOFT_IN_INTERFACE(entry) ? soft_along_interface(wished, SOFT_NUMBER(from, TURNS) > 0,
+                                                                      soft_interface_at(crack, entry, gradient, e, j))
+                                               : wished;
             const lane_vec3 along = soft_lanes(now), normal = soft_lanes(at.normal);
             const lane_vec3 goes_on = slides ? soft_passed(soft_spread(at.mean), along, normal)
                                              : soft_carried(soft_spread(at.mean), along, normal);
@@ -361,6 +370,7 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
             const soft_vector side = slides ? (soft_vector){0, 0, 0} : uneven;
             open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;
             soft_put(crack, mine, SOFT_AXIS, axis);
+            soft_put(crack, mine, SOFT_SHIFT, (soft_vector){0, 0, 0});
             soft_put_number(crack, mine, SOFT_START, size);
             soft_put_number(crack, mine, SOFT_ENERGY, whole * SOFT_ABS(c));
             soft_put_number(crack, mine, SOFT_COSINE, c);

@@ -5,16 +5,16 @@
  * step added to w, SHIFT [m], and to v, SIDE_SHIFT [m]; AXIS: of the crack, in the undeformed body; START, ENERGY:
  * soft_face (ENERGY before the onset: G_c S) [N] [J]; EXPONENTIAL: 1, else linear; WIDEST: largest opening, |w| and |v|
  * together [m]; COSINE of normal and axis at the onset; of a face in an interface, whose plane no crack
- * chooses, minus that to the interface's normal, which is AXIS, both from the start (others: 0 before the onset) [-];
- * TILT: what the direction of the opening leaves of ENERGY, 1 in an interface [-]; TURNS: 1 of a face whose edge opens,
- * SOFT_SLIDES of one that slides: by shear, along the plane across AXIS, which has no v; PULL: force of the bond on the
- * own element at the last evaluation [N]; SIDE_PULL: by how much this side pulled more than the other at the last
- * evaluation [N], or RUBS: what the last step rubbed off [J]; ONSET: principal stress at the onset [Pa]; SPENT: energy
- * that its cohesion took so far but for what is HELD, which comes back [J]; BOOKED: what of SPENT the last step added
- * [J]. Entries: open: 0 whole, SOFT_OPENS from the onset on, SOFT_APART from the end of the cohesion on; lead: 1 on the
- * side with the lower id, which computes for both and alone has the whole record: the other has ONSET, SPENT, HELD,
- * BOOKED, RUBS and TURNS. Elements [n]: n_open: open faces that hold, n_lead: those that it leads; reach: sum of |A^-1
- * s| over all of them, or more (soft_count) [1/m]. */
+ * chooses, minus that to the interface's normal, which is in SHIFT until then, from the start (others: 0 before the
+ * onset) [-]; TILT: what the direction of the opening leaves of ENERGY, 1 in an interface [-]; TURNS: 1 of a face whose
+ * edge opens, SOFT_SLIDES of one that slides: by shear, along the plane across AXIS, which has no v; PULL: force of the
+ * bond on the own element at the last evaluation [N]; SIDE_PULL: by how much this side pulled more than the other at
+ * the last evaluation [N], or RUBS: what the last step rubbed off [J]; ONSET: principal stress at the onset [Pa];
+ * SPENT: energy that its cohesion took so far but for what is HELD, which comes back [J]; BOOKED: what of SPENT the
+ * last step added [J]. Entries: open: 0 whole, SOFT_OPENS from the onset on, SOFT_APART from the end of the cohesion
+ * on; lead: 1 on the side with the lower id, which computes for both and alone has the whole record: the other has
+ * ONSET, SPENT, HELD, BOOKED, RUBS and TURNS. Elements [n]: n_open: open faces that hold, n_lead: those that it leads;
+ * reach: sum of |A^-1 s| over all of them, or more (soft_count) [1/m]. */
 
 #define SOFT_SHIFT 0
 #define SOFT_SIDE_SHIFT 3

@@ -17,9 +17,10 @@ static const double endless = 3e38;    /* a limit that nothing reaches; finite i
  * fast (bench/results/2026-11-30-slots.md). */
 static const double regular = 0.83, soft = 0.35;
 
-/* On rigid strikers, over that of a whole face of a cube that is as stiff as the solid, or stiffer by the laws given:
- * at safeties up to 0.8, and above. There surfaces are flat and pressed together, and softer ones press unevenly. */
-static const double at_striker[] = {2, 1};
+/* And of any, over that of a whole face of a cube that is as stiff as the solid, or stiffer by the laws given:
+ * at safeties up to 0.8, and above. On rigid strikers no others: pressed flat against them, softer ones press unevenly.
+ */
+static const double at_most[] = {2, 1};
 
 enum { BORNE = 4 }; /* c->bears of an element */
 
@@ -113,6 +114,20 @@ static double safety_of(const brc_simulation *s)
     return safety > 0 ? safety : 0.8;
 }
 
+/* Of omega^2 of the fastest cube, over the square of the safety, the least of all stages whose time step breccia
+ * chooses or the papers' rule does; one that is given is the scene's own care [1/s^2]. */
+static double per_safety(const brc_simulation *s, double cube)
+{
+    double least = INFINITY;
+    for (int32_t k = 0; k < s->scene->n_stages; ++k) {
+        const brc_stage *stage = &s->scene->stages[k];
+        const double safety = stage->time_step_rule == BRC_TIME_STEP_AUTO ? stage->safety : 0.8;
+        if (stage->solver == BRC_SOLVER_DYNAMIC && stage->time_step_rule != BRC_TIME_STEP_FIXED)
+            least = fmin(least, cube / (safety * safety));
+    }
+    return least;
+}
+
 /* omega^2 of a whole face of the fastest cube, as stiff as contact or as its stuff is by itself, over the square of the
  * safety [1/s^2]. */
 static double fastest_cube(const brc_simulation *s)
@@ -126,11 +141,11 @@ static double fastest_cube(const brc_simulation *s)
             k = fmax(k, brc_contact_stiffest_normal(s, e, other));
         most = fmax(most, 4 * k / brc_mass_of_element(s, e));
     }
-    return most / (safety_of(s) * safety_of(s));
+    return per_safety(s, most);
 }
 
-/* omega^2 that surfaces may have on strikers [1/s^2]. */
-static double fastest_at_striker(const brc_simulation *s)
+/* omega^2 that no surface may have more of [1/s^2]. */
+static double fastest_allowed(const brc_simulation *s)
 {
     const brc_domain *d = s->domain;
     double most = 0;
@@ -138,7 +153,7 @@ static double fastest_at_striker(const brc_simulation *s)
         double k = s->elastic[s->material_of_element[e]].young * cbrt(d->volume[e]);
         for (int32_t other = 0; other < s->scene->n_materials; ++other)
             k = fmax(k, brc_contact_stiffest_normal(s, e, other));
-        most = fmax(most, 4 * at_striker[safety_of(s) > 0.8] * k / brc_mass_of_element(s, e));
+        most = fmax(most, 4 * at_most[safety_of(s) > 0.8] * k / brc_mass_of_element(s, e));
     }
     return most;
 }
@@ -166,12 +181,13 @@ typedef struct {
     double *share;           /* [entries] */
     face_springs *springs;   /* [n_free_faces] */
     double *yields;          /* [n_free_faces] c_f.M^-1 c_g of one f; 0 between two [1/kg] */
-    int64_t *near;           /* [n_free_faces] those that are not 0 */
+    int64_t *near, *row; /* [n_free_faces] those that share elements with it; 1 + the last that a face was near to */
 } free_faces;
 
 static void free_faces_free(free_faces *f)
 {
-    void *const all[] = {f->start, f->first, f->at, f->element, f->face, f->share, f->springs, f->yields, f->near};
+    void *const all[] = {f->start, f->first,   f->at,     f->element, f->face,
+                         f->share, f->springs, f->yields, f->near,    f->row};
     for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
         brc_memory_free(all[k]);
 }
@@ -192,7 +208,8 @@ static brc_status allocate(const brc_simulation *s, free_faces *f)
     BRC_TRY(BRC_ALLOCATE(s->context, &f->share, f->start[n], what));
     BRC_TRY(BRC_ALLOCATE(s->context, &f->springs, n, what));
     BRC_TRY(BRC_ALLOCATE(s->context, &f->yields, n, what));
-    return BRC_ALLOCATE(s->context, &f->near, n, what);
+    BRC_TRY(BRC_ALLOCATE(s->context, &f->near, n, what));
+    return BRC_ALLOCATE(s->context, &f->row, n, what);
 }
 
 static void fill_cell(const brc_simulation *s, free_faces *f, int64_t e)
@@ -227,8 +244,8 @@ static void sort_by_element(const brc_domain *d, free_faces *f)
         f->at[f->first[f->element[k] + 1]++] = k;
 }
 
-/* Row sums of face k. Springs along normals that stand across each other add nothing, those in their planes half: the
- * one direction of two that they have in common. */
+/* Row sums of face k over all that look the same way: those on other sides of a body seldom touch at once. Springs
+ * along normals count as these stand to each other, those in planes as what two planes have in common. */
 static face_springs row_of(const brc_simulation *s, free_faces *f, int64_t k)
 {
     const double *area = s->domain->free_area_vector;
@@ -239,7 +256,7 @@ static face_springs row_of(const brc_simulation *s, free_faces *f, int64_t k)
         const double per_mass = f->share[own] / brc_mass_of_element(s, e);
         for (int64_t at = f->first[e]; at < f->first[e + 1]; ++at) {
             const int32_t other = f->face[f->at[at]];
-            if (f->yields[other] == 0) f->near[n_near++] = other;
+            if (f->row[other] != k + 1) f->near[n_near++] = other, f->row[other] = k + 1;
             f->yields[other] += per_mass * f->share[f->at[at]];
         }
     }
@@ -247,14 +264,16 @@ static face_springs row_of(const brc_simulation *s, free_faces *f, int64_t k)
         const int64_t other = f->near[i];
         const double *m = area + 3 * k, *n = area + 3 * other, c = dot(m, n) / (brc_norm3(m) * brc_norm3(n));
         const face_springs a = f->springs[k], b = f->springs[other];
-        sum.normal += fabs(c * f->yields[other]) * sqrt(a.normal * b.normal);
-        sum.along += 0.5 * (1 + c * c) * fabs(f->yields[other]) * sqrt(a.along * b.along);
+        const double yields = fabs(f->yields[other]);
         f->yields[other] = 0;
+        if (!(c > 1e-6)) continue;
+        sum.normal += c * yields * sqrt(a.normal * b.normal);
+        sum.along += 0.5 * (1 + c * c) * yields * sqrt(a.along * b.along);
     }
     return sum;
 }
 
-/* Limits of elements, [n_elements][2]. */
+/* bears: as c->bears, of elements. Rigid cells have no neighbours to move them: thin ones want 2.8 times a cube's. */
 static brc_status bear_free_faces(const brc_simulation *s, double cube, double *bears)
 {
     const brc_domain *d = s->domain;
@@ -264,7 +283,8 @@ static brc_status bear_free_faces(const brc_simulation *s, double cube, double *
         fill_cell(s, &f, e);
     if (status == BRC_OK) sort_by_element(d, &f);
     for (int64_t e = 0; e < d->n_elements && status == BRC_OK; ++e) {
-        for (int64_t k = d->free_start[e]; k < d->free_start[e + 1] && brc_domain_mine(d, e); ++k)
+        if (!brc_domain_mine(d, e) || d->row_start[e] == d->row_start[e + 1]) continue;
+        for (int64_t k = d->free_start[e]; k < d->free_start[e + 1]; ++k)
             bear(brc_norm3(d->free_area_vector + 3 * k), f.springs[k], row_of(s, &f, k), cube, bears + BORNE * e);
     }
     free_faces_free(&f);
@@ -274,7 +294,7 @@ static brc_status bear_free_faces(const brc_simulation *s, double cube, double *
 /* ---- faces alone ---- */
 
 /* Beside strikers, which do not give way, and faces that are free once their bond is lost: what its neighbours will
- * have lost then is not known. most: omega^2 of a surface that meets a striker [1/s^2]. */
+ * have lost then is not known. most: fastest_allowed. */
 static void bear_face(const brc_simulation *s, int64_t e, const double g[6], int64_t lost, const double *area,
                       const double *centroid, double cube, double most, double out[BORNE])
 {
@@ -283,8 +303,10 @@ static void bear_face(const brc_simulation *s, int64_t e, const double g[6], int
     const double yielding = yields(s, e, g, lost, arm);
     if (!(yielding > 0)) return;
     const double limit = most / (2 * yielding);
-    out[2] = fmin(out[2], limit / (size * size));
-    out[3] = fmin(out[3], limit);
+    for (int k = 0; k < BORNE; k += 2) {
+        out[k] = fmin(out[k], limit / (size * size));
+        out[k + 1] = fmin(out[k + 1], limit);
+    }
     if (lost < 0) return;
     const face_springs springs = springs_of(s, e, size);
     bear(size, springs, (face_springs){springs.normal * yielding, springs.along * yielding}, cube, out);
@@ -304,7 +326,7 @@ static void bear_cell(const brc_simulation *s, int64_t e, double cube, double mo
 static void bear_faces_alone(const brc_simulation *s, double cube, double *bears)
 {
     const brc_domain *d = s->domain;
-    const double most = fastest_at_striker(s);
+    const double most = fastest_allowed(s);
 #pragma omp parallel for schedule(static)
     for (int64_t e = 0; e < d->n_elements; ++e)
         if (brc_domain_mine(d, e) && d->row_start[e + 1] > d->row_start[e])
@@ -346,8 +368,7 @@ brc_status brc_contact_set_bearing(brc_simulation *s)
     BRC_LOCAL(s->context, BORNE * solids, double, value, "stiffness that surfaces bear");
     for (int64_t k = 0; k < BORNE * s->domain->n_elements; ++k)
         bears[k] = endless;
-    if (c->affine)
-        BRC_TRY(find_bearing(s, bears)); /* rigid cells: thin ones have 2.8 times a cube's, and no neighbours */
+    if (c->affine) BRC_TRY(find_bearing(s, bears));
     for (int64_t r = 0; r < solids; ++r) {
         const int32_t e = r < n ? s->layout->element_of_row[r] : -1;
         for (int k = 0; k < BORNE; ++k)

@@ -30,7 +30,7 @@ static const double retention = 0.3;
 static const double least_cells = 4;
 
 /* Components of `crack` (softening_record.cl). */
-enum { AXIS = 6, START = 9, ENERGY = 10, EXPONENTIAL = 11, COSINE = 13, TILT = 14, SPENT = 23, WIDTH = 26 };
+enum { SHIFT = 0, START = 9, ENERGY = 10, EXPONENTIAL = 11, COSINE = 13, TILT = 14, SPENT = 23, WIDTH = 26 };
 enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
@@ -152,7 +152,7 @@ static void put_plane(double *record, const double normal[3], bool is_outward)
     if (!(cosine > 0)) return;
     record[COSINE] = -cosine; /* softening_record.cl */
     for (int c = 0; c < 3; ++c)
-        record[AXIS + c] = (is_outward ? 1 : -1) * normal[c] / cosine;
+        record[SHIFT + c] = (is_outward ? 1 : -1) * normal[c] / cosine;
 }
 
 static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_strengths *strengths)
