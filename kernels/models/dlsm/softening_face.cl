@@ -267,27 +267,23 @@ LAW void soft_put_numbers(SCATTER(coeff) crack, int entry, int other, int what, 
 #define SOFT_LANE(a, l) ((soft_vector){LANE_ITEM((a).x, l), LANE_ITEM((a).y, l), LANE_ITEM((a).z, l)})
 
 LAW soft_vector soft_unit(soft_vector a) { return soft_scale(REAL(1) / SQRT(soft_dot(a, a)), a); }
-/* A direction of the present body as it was in the undeformed one, of small strains: by the transpose. */
-LAW soft_vector soft_turned_back(GATHER(coeff) gradient, int i, int j, soft_vector a)
+/* a + (H_i + H_j) a / 2, a direction of the undeformed body as it is now; with the strides 1 and 3 of the transpose one
+ * of the present body as it was, of small strains. H_rc is in place r row + c column. */
+LAW soft_vector soft_turned_by(GATHER(coeff) gradient, int i, int j, soft_vector a, int row, int column)
 {
     GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
-    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[3] + q[3]) * a.y + (p[6] + q[6]) * a.z,
-                             (p[1] + q[1]) * a.x + (p[4] + q[4]) * a.y + (p[7] + q[7]) * a.z,
-                             (p[2] + q[2]) * a.x + (p[5] + q[5]) * a.y + (p[8] + q[8]) * a.z};
+#define ALONG(r)                                                                                                       \
+    ((p[r * row] + q[r * row]) * a.x + (p[r * row + column] + q[r * row + column]) * a.y +                             \
+     (p[r * row + 2 * column] + q[r * row + 2 * column]) * a.z)
+    const soft_vector sum = {ALONG(0), ALONG(1), ALONG(2)};
+#undef ALONG
     return soft_add(a, REAL(0.5), sum);
 }
-/* A direction of the undeformed body as it is now. */
-LAW soft_vector soft_turned_on(GATHER(coeff) gradient, int i, int j, soft_vector a)
-{
-    GLOBAL const coeff *p = gradient + (brc_size)i * 9, *q = gradient + (brc_size)j * 9;
-    const soft_vector sum = {(p[0] + q[0]) * a.x + (p[1] + q[1]) * a.y + (p[2] + q[2]) * a.z,
-                             (p[3] + q[3]) * a.x + (p[4] + q[4]) * a.y + (p[5] + q[5]) * a.z,
-                             (p[6] + q[6]) * a.x + (p[7] + q[7]) * a.y + (p[8] + q[8]) * a.z};
-    return soft_add(a, REAL(0.5), sum);
-}
+#define SOFT_TURNED_ON(gradient, i, j, a) soft_turned_by(gradient, i, j, a, 3, 1)
+#define SOFT_TURNED_BACK(gradient, i, j, a) soft_turned_by(gradient, i, j, a, 1, 3)
 /* Normal of the interface that the face of an entry lies in, as it is now; of no use elsewhere. */
 #define SOFT_IN_INTERFACE(entry) (SOFT_NUMBER(entry, COSINE) < 0)
 LAW soft_vector soft_interface_at(GATHER(coeff) crack, brc_size entry, GATHER(coeff) gradient, int i, int j)
 {
-    return soft_unit(soft_turned_on(gradient, i, j, soft_part(crack, entry, SOFT_SHIFT)));
+    return soft_unit(SOFT_TURNED_ON(gradient, i, j, soft_part(crack, entry, SOFT_SHIFT)));
 }

@@ -225,8 +225,9 @@ LAW int soft_check_bond(int e, brc_size entry, coeff share, coeff steepest, int 
     const soft_vector axis = across.axis;
     const coeff c = across.cosine, size = SOFT_ABS(c);
     const coeff most = share * limit[entry];
-    const coeff drawn = /* only where it may be more than both */
-        !across.is_first || soft_pull_at_most(largest, normal) < REAL(0.999) * failure_larger(most, largest.first) ||
+    const coeff drawn = /* only where it may be more than both, and not along an interface, whose plane is known */
+        SOFT_IN_INTERFACE(entry) || !across.is_first ||
+                soft_pull_at_most(largest, normal) < REAL(0.999) * failure_larger(most, largest.first) ||
                 soft_bridges(now.mean, most)
             ? REAL(0)
             : soft_drawn(soft_add_around(now.mean, e, row_start, neighbour, gradient, stress), largest, normal, most);
@@ -359,7 +360,7 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
             const lane_vec3 goes_on = slides ? soft_passed(soft_spread(at.mean), along, normal)
                                              : soft_carried(soft_spread(at.mean), along, normal);
             const soft_vector released = soft_add(force, REAL(-1), SOFT_LANE(goes_on, 0));
-            const soft_vector axis = soft_unit(soft_turned_back(gradient, e, j, now));
+            const soft_vector axis = soft_unit(SOFT_TURNED_BACK(gradient, e, j, now));
             const coeff across = soft_dot(released, now), pulled = across > 0 ? across : 0;
             const coeff size = slides ? soft_slide_start(released, now, friction)
                                       : SQRT(SOFT_NUMBER(from, TURNS) > 0 ? pulled * pulled + soft_dot(uneven, uneven)

@@ -128,18 +128,22 @@ static double per_safety(const brc_simulation *s, double cube)
     return least;
 }
 
-/* omega^2 of a whole face of the fastest cube, as stiff as contact or as its stuff is by itself, over the square of the
- * safety [1/s^2]. */
+/* omega^2 of the whole face of a cube: element e, as stiff as contact or as `modulus` makes it [1/s^2]. */
+static double cube_of(const brc_simulation *s, int64_t e, double modulus)
+{
+    double k = modulus * cbrt(s->domain->volume[e]);
+    for (int32_t other = 0; other < s->scene->n_materials; ++other)
+        k = fmax(k, brc_contact_stiffest_normal(s, e, other));
+    return 4 * k / brc_mass_of_element(s, e);
+}
+
+/* Of the fastest cube, as stiff as contact of its stuff is by itself, over the square of the safety [1/s^2]. */
 static double fastest_cube(const brc_simulation *s)
 {
-    const brc_domain *d = s->domain;
     double most = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) {
+    for (int64_t e = 0; e < s->domain->n_elements; ++e) {
         const brc_material *own = s->scene->materials + s->material_of_element[e];
-        double k = 0.5 * own->young / (1 - own->poisson * own->poisson) * cbrt(d->volume[e]);
-        for (int32_t other = 0; other < s->scene->n_materials; ++other)
-            k = fmax(k, brc_contact_stiffest_normal(s, e, other));
-        most = fmax(most, 4 * k / brc_mass_of_element(s, e));
+        most = fmax(most, cube_of(s, e, 0.5 * own->young / (1 - own->poisson * own->poisson)));
     }
     return per_safety(s, most);
 }
@@ -147,14 +151,10 @@ static double fastest_cube(const brc_simulation *s)
 /* omega^2 that no surface may have more of [1/s^2]. */
 static double fastest_allowed(const brc_simulation *s)
 {
-    const brc_domain *d = s->domain;
+    const double part = at_most[safety_of(s) > 0.8];
     double most = 0;
-    for (int64_t e = 0; e < d->n_elements; ++e) {
-        double k = s->elastic[s->material_of_element[e]].young * cbrt(d->volume[e]);
-        for (int32_t other = 0; other < s->scene->n_materials; ++other)
-            k = fmax(k, brc_contact_stiffest_normal(s, e, other));
-        most = fmax(most, 4 * at_most[safety_of(s) > 0.8] * k / brc_mass_of_element(s, e));
-    }
+    for (int64_t e = 0; e < s->domain->n_elements; ++e)
+        most = fmax(most, part * cube_of(s, e, s->elastic[s->material_of_element[e]].young));
     return most;
 }
 

@@ -36,7 +36,7 @@ static int32_t side_of(const interface_faces *f, int32_t interface, int32_t e)
     return f->scene->interfaces[interface].kind == BRC_INTERFACE_GRAINS ? f->domain->grain[e] : f->material[e];
 }
 
-/* Element e's half-edge h leads across the interface between the sides `own`, e's, and `other`. */
+/* Element e's half-edge h leads across the interface to the side `other`. */
 static bool leads_across(const interface_faces *f, int32_t interface, int32_t e, int64_t h, int32_t other)
 {
     const int32_t j = f->domain->neighbour[h];
