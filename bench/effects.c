@@ -26,8 +26,8 @@ enum {
 static const double strength = 1e8;
 /* Share of the bonds that break in a trial step. */
 static const double trial_rate = 1e-3;
-/* As much faster flies apart what is to swing below limits of shear. */
-static const double swing = 100;
+/* Mean stress, over the strength, to which what is to swing below limits of shear does: a third of them in corners. */
+static const double swing = 1.5;
 
 /* An effect. rate: share of the bonds that break, or faces that open, in each step; bound: asked for, over the
  * elastic step, 0: none. */
@@ -158,9 +158,10 @@ static brc_status make_variant(brc_context *context, const brc_effects_request *
     BRC_TRY_OR(cleanup, brc_simulation_begin_stage(v->simulation, 0));
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &velocity, 3 * domain->n_elements, "velocities"));
     const double three_bulk = m->young / (1 - 2 * m->poisson), dt = brc_simulation_time_step(v->simulation).value;
-    const double gradient = (rate > 0 ? rate : trial_rate) * scale * strength / three_bulk / dt;
+    const double steps_to_centre = 0.5 * sqrt(m->density / m->young) / dt;
+    const double in_step = e->shears ? swing / steps_to_centre : (rate > 0 ? rate : trial_rate) * scale;
     for (int64_t k = 0; k < 3 * domain->n_elements; ++k)
-        velocity[k] = (e->shears ? swing : 1) * gradient * (domain->position[k] - 0.5);
+        velocity[k] = in_step * strength / three_bulk / dt * (domain->position[k] - 0.5);
     status = brc_simulation_set_state(v->simulation, NULL, velocity);
 cleanup:
     if (m->scatter.file[0]) remove(m->scatter.file);
