@@ -60,6 +60,7 @@
 #include "models/dlsm/softening_face.cl"
 #include "models/dlsm/softening.cl"
 #include "models/dlsm/softening_screen.cl"
+#include "models/dlsm/softening_interfaces.cl"
 #include "models/dlsm/softening_onset.cl"
 #include "models/dlsm/closed_faces.cl"
 #include "models/cbm/beam_carried.h"

@@ -19,7 +19,10 @@
  * body, so no rotation of the body changes U. k_m counts by `keeps`: 1 where the beam leans by 30 degrees or more
  * against the axis and what pressed along the crack as it opened was as much as what pulled, less where the beam lies
  * along the axis, since a slide along the crack is no push, and with the square of push over pull; it fades as the
- * crack opens, and where it is 0 the axial push is left: U = k/2 min(l - l0, 0)^2. */
+ * crack opens, and where it is 0 the axial push is left: U = k/2 min(l - l0, 0)^2.
+ *
+ * Sides of an interface that slide along its plane (cosine < 0): w is free along p and q, so that a slide is no push
+ * whichever way the beam leans, and k_m stays whole. */
 #ifndef BRC_KERNELS_BEAM_CARRIED_H
 #define BRC_KERNELS_BEAM_CARRIED_H
 
@@ -27,7 +30,7 @@
 
 /* How a crack lies to a beam. side: unit vector m1 across e in the plane of e and a, in the undeformed body, a = c_a e
  * + s m1; from the other end -m1. m2 = e x m1. along: c_a; cosine, sine: of p in p = cosine (s e - c_a m1) + sine m2,
- * cosine >= 0; from the other end -sine. keeps: share of k_m. [-, all] */
+ * cosine >= 0, from the other end -sine; -1 and 0: the crack slides. keeps: share of k_m. [-, all] */
 typedef struct {
     lane_vec3 side;
     lane along, cosine, sine, keeps;
@@ -40,6 +43,8 @@ typedef struct {
 
 /* 1 where x > 0, else 0. */
 LAW lane beam_positive(lane x) { return LANE_DIFFERENT(lane_max(x, LANE_ZERO), LANE_ZERO); }
+/* 1 where the crack slides along an interface, else 0. */
+LAW lane beam_slides(beam_lean lean) { return beam_positive(-lean.cosine); }
 
 /* Axes a, p, q by their parts along e, m1 and m2, and the parts of o across the beam. */
 typedef struct {
@@ -74,13 +79,13 @@ LAW lane beam_along(lane c, lane m1, lane m2, lane elongation, lane o1, lane o2)
 }
 
 /* One of the axes at a trial y: sum: c o where it holds; free: c^2 where it does not; force: F along it [N], where it
- * holds; rest: o - w along it but for y [m]. */
+ * holds; rest: o - w along it but for y [m]. slides: 1: it holds nothing, else 0. */
 typedef struct {
     lane sum, free, force, rest;
 } beam_axis;
-LAW beam_axis beam_axis_of(lane c, lane o, lane k_m, lane more, lane y, lane per)
+LAW beam_axis beam_axis_of(lane c, lane o, lane k_m, lane more, lane y, lane per, lane slides)
 {
-    const lane f = k_m * o + more * c * y, lets = beam_positive(f), held = REAL(1) - lets;
+    const lane f = k_m * o + more * c * y, lets = lane_max(beam_positive(f), slides), held = REAL(1) - lets;
     return (beam_axis){held * c * o, lets * c * c, held * f, held * o - lets * per * c * y};
 }
 
@@ -97,7 +102,7 @@ LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness sti
                             lane_vec3 axis0, lane_quat q_i, lane_quat q_j, beam_lean lean)
 {
     const beam_axes x = beam_axes_of(shape, axis0, q_i, q_j, lean);
-    const lane zero = LANE_ZERO, k = stiffness.axial * inv_length0,
+    const lane zero = LANE_ZERO, slides = beam_slides(lean), k = stiffness.axial * inv_length0,
                k_m = lean.keeps * REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, more = k - k_m;
     const lane per = more / lane_max(k_m, REAL(1e-15) * k + REAL(1e-30));
     const lane_vec3 o = {beam_along(x.c.x, x.m1.x, x.m2.x, cbm_elongation(shape), x.o1, x.o2),
@@ -106,9 +111,9 @@ LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness sti
     beam_axis a, p, q;
     lane y = zero;
     for (int turn = 0; turn < 5; ++turn) {
-        a = beam_axis_of(x.c.x, o.x, k_m, more, y, per);
-        p = beam_axis_of(x.c.y, o.y, k_m, more, y, per);
-        q = beam_axis_of(x.c.z, o.z, k_m, more, y, per);
+        a = beam_axis_of(x.c.x, o.x, k_m, more, y, per, zero);
+        p = beam_axis_of(x.c.y, o.y, k_m, more, y, per, slides);
+        q = beam_axis_of(x.c.z, o.z, k_m, more, y, per, slides);
         if (turn < 4) y = lane_min((a.sum + p.sum + q.sum) / (REAL(1) + (a.free + p.free + q.free) * per), zero);
     }
     const lane energy = more * y * y + k_m * (a.rest * a.rest + p.rest * p.rest + q.rest * q.rest);
@@ -147,13 +152,14 @@ LAW lane_vec3 beam_opening(cbm_shape shape)
 }
 
 /* keeps of a crack that has come to this opening: none where its ends stand clear of each other, at `clear` of the
- * beam's length (0: it does not fade). */
-LAW lane beam_fades(lane keeps, lane along, lane_vec3 opening, lane inv_length0, coeff clear)
+ * beam's length (0: it does not fade); of one that slides as it is. */
+LAW lane beam_fades(beam_lean lean, lane_vec3 opening, lane inv_length0, coeff clear)
 {
     const lane wide =
         clear > 0 ? LANE_SQRT(lane_vec3_dot(opening, opening)) * inv_length0 * (REAL(1) / clear) : LANE_ZERO;
-    const lane leans = lane_min(REAL(4) * (REAL(1) - along * along), LANE_ZERO + REAL(1));
-    return lane_min(keeps, leans * lane_max(REAL(1) - wide, LANE_ZERO));
+    const lane leans = lane_min(REAL(4) * (REAL(1) - lean.along * lean.along), LANE_ZERO + REAL(1));
+    const lane keeps = lane_min(lean.keeps, leans * lane_max(REAL(1) - wide, LANE_ZERO));
+    return keeps + beam_slides(lean) * (lean.keeps - keeps);
 }
 
 #endif

@@ -210,7 +210,7 @@ LAW int closure_move_group(int group, coeff clear, OWN(int) row_start, OWN(int) 
         const lane apart = cbm_strain(b.shape) - clear;
         if (leans) {
             const beam_carry before = closure_carry(b, own, leans);
-            b.lean.keeps = beam_fades(b.lean.keeps, b.lean.along, beam_opening(b.shape), b.inv_length0, clear);
+            b.lean.keeps = beam_fades(b.lean, beam_opening(b.shape), b.inv_length0, clear);
             const beam_carry after = closure_carry(b, own, leans);
             const lane share = REAL(0.5) * b.bears * (before.energy - after.energy);
             lane_store(lean, ((brc_size)slot * LEAN + 6) * C + (brc_size)lane0, b.lean.keeps);

@@ -13,7 +13,8 @@
  * SPENT: energy that the opening took so far, BOOKED: by the last step [J]; ONSET: stress of the element that failed
  * [Pa], MODE of it; TILT: |cos| of the beam and its opening, not less than the steepest [-]; CAPACITY: strength times
  * area [N]; PER_AREA: one over the area [1/m^2]; SIDE (3 components), ALONG, COSINE, SINE, KEEPS: beam_lean; LATERAL:
- * nu / E [1/Pa]. Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with
+ * nu / E [1/Pa]. PLANE (3 components), of a whole beam in an interface: the normal of its plane [-], else 0.
+ * Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with
  * the lower id, which computes for both; twin: the other entry. active [n / W], touched [n]: 1 from the first opening
  * of the group and of the element on; raised [n / W]: the same, of openings that beam_soft_keep has not seen yet too.
  */
@@ -27,6 +28,7 @@
 #define BEAM_SPENT 6
 #define BEAM_BOOKED 7
 #define BEAM_ONSET 8
+#define BEAM_PLANE BEAM_SPENT /* until the beam opens */
 #define BEAM_MODE 9
 #define BEAM_TILT 10
 #define BEAM_CAPACITY 11
@@ -44,7 +46,8 @@
 #define BEAM_BROKEN 3
 #define BEAM_NEVER REAL(1e30) /* factor of a bond that is not chosen again */
 
-#define BEAM_NUMBER(entry, what) crack[(((entry) / C) * BEAM_WIDTH + BEAM_##what) * C + (entry) % C]
+#define BEAM_COMPONENT(entry, c) crack[(((entry) / C) * BEAM_WIDTH + (c)) * C + (entry) % C]
+#define BEAM_NUMBER(entry, what) BEAM_COMPONENT(entry, BEAM_##what)
 
 LAW beam_lean beam_lean_at(OWN(coeff) crack, int slot, int lane0)
 {
@@ -71,13 +74,14 @@ LAW beam_part beam_part_of(cbm_bond bond, lane_vec3 axis0, cbm_own own, lane_qua
                        cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness, 1) - left.energy};
 }
 
-/* |cos| between the axis and the opening. */
-LAW lane beam_cosine(cbm_bond bond)
+/* |cos| between the axis and the opening; along an interface that of the axis and the interface's normal. */
+LAW lane beam_cosine(cbm_bond bond, beam_lean lean)
 {
     const lane_vec3 opening = beam_opening(bond.shape);
     const lane along = lane_vec3_dot(opening, cbm_axis(bond.shape)) * bond.inv_length0;
-    return LANE_SQRT(along * along /
-                     (lane_vec3_dot(opening, opening) + REAL(1e-30) * bond.shape.length0 * bond.shape.length0));
+    const lane cosine = LANE_SQRT(
+        along * along / (lane_vec3_dot(opening, opening) + REAL(1e-30) * bond.shape.length0 * bond.shape.length0));
+    return cosine + beam_slides(lean) * (lean.along - cosine);
 }
 
 /* Any lane of a slot: open has one of the two states. */
@@ -236,11 +240,12 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, OWN(int) r
                 beam_lean lean = beam_lean_at(crack, slot, lane0);
                 const beam_part before = beam_part_of(
                     bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
-                lean.keeps = beam_fades(lean.keeps, lean.along, beam_opening(bond.shape), bond.inv_length0, clear);
+                lean.keeps = beam_fades(lean, beam_opening(bond.shape), bond.inv_length0, clear);
                 const beam_part part = beam_part_of(
                     bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
                 const lane y = part.energy, faded = part.energy - before.energy,
-                           k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond), keeps = lean.keeps;
+                           k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond, lean),
+                           keeps = lean.keeps;
                 const soft_face face = {lane_block(crack, slot, BEAM_WIDTH, BEAM_START, lane0),
                                         lane_block(crack, slot, BEAM_WIDTH, BEAM_ENERGY, lane0) *
                                             lane_block(crack, slot, BEAM_WIDTH, BEAM_TILT, lane0),
@@ -276,6 +281,7 @@ ROUTINE int beam_opens(UPDATE(coeff) crack, brc_size entry, coeff y, coeff k, co
         return 0;
     BEAM_NUMBER(entry, START) = start;
     BEAM_NUMBER(entry, TILT) = tilt;
+    BEAM_NUMBER(entry, SPENT) = 0, BEAM_NUMBER(entry, BOOKED) = 0; /* PLANE */
     BEAM_NUMBER(entry, HELD) = y > 0 ? y : 0;
     return 1;
 }
@@ -290,9 +296,12 @@ LAW soft_vector beam_back(OWN(state) orientation, int e, failure_axis a)
     return soft_add(soft_add((soft_vector){a.x, a.y, a.z}, REAL(-2) * w, once), REAL(2), twice);
 }
 
+/* An interface's crack slides where the largest pull stands further from its normal: cos 30 degrees. */
+#define BEAM_ASKEW REAL(0.8660254037844386)
+
 /* How a crack across the largest principal value of the mean stress of element e (of_e), j (of_j) or both lies to the
- * beam between them, the others along it. Returns what the body stretches across the pushes along the crack, nu / E of
- * them [-]. */
+ * beam between them, the others along it; or one along the interface that the beam crosses. Returns what the body
+ * stretches across the pushes along the crack, nu / E of them [-]. */
 ROUTINE coeff beam_lay(UPDATE(coeff) crack, brc_size entry, int e, int j, int slot, int of_e, int of_j, int level,
                        GATHER(int) row_start, GATHER(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
                        OWN(state) orientation, GATHER(coeff) record)
@@ -306,7 +315,12 @@ ROUTINE coeff beam_lay(UPDATE(coeff) crack, brc_size entry, int e, int j, int sl
     const failure_axis first = principal.first_axis, third = principal.third_axis;
     const coeff second_push = principal.second < 0 ? -principal.second : 0,
                 third_push = principal.third < 0 ? -principal.third : 0;
-    const soft_vector axis = beam_back(orientation, e, first), pressed = beam_back(orientation, e, third);
+    const soft_vector pulled = beam_back(orientation, e, first), pressed = beam_back(orientation, e, third),
+                      plane = {BEAM_NUMBER(entry, PLANE), BEAM_COMPONENT(entry, BEAM_PLANE + 1),
+                               BEAM_COMPONENT(entry, BEAM_PLANE + 2)};
+    const coeff straight = soft_dot(pulled, plane);
+    const int slides = soft_dot(plane, plane) > 0 && straight * straight < BEAM_ASKEW * BEAM_ASKEW;
+    const soft_vector axis = slides ? plane : pulled;
     GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
     const soft_vector beam = soft_scale(inv_length[entry], (soft_vector){r[0], r[C], r[2 * C]});
     const coeff cosine = soft_dot(axis, beam), c = cosine < 0 ? -cosine : cosine;
@@ -323,15 +337,14 @@ ROUTINE coeff beam_lay(UPDATE(coeff) crack, brc_size entry, int e, int j, int sl
     const coeff size = SQRT(x * x + y * y), per = (x < 0 ? REAL(-1) : REAL(1)) / (size > REAL(1e-6) ? size : REAL(1));
     x = size > REAL(1e-6) ? per * x : REAL(1), y = size > REAL(1e-6) ? per * y : 0;
     BEAM_NUMBER(entry, SIDE) = side.x;
-    crack[((entry / C) * BEAM_WIDTH + BEAM_SIDE + 1) * C + entry % C] = side.y;
-    crack[((entry / C) * BEAM_WIDTH + BEAM_SIDE + 2) * C + entry % C] = side.z;
+    BEAM_COMPONENT(entry, BEAM_SIDE + 1) = side.y, BEAM_COMPONENT(entry, BEAM_SIDE + 2) = side.z;
     BEAM_NUMBER(entry, ALONG) = c < 1 ? c : REAL(1);
-    BEAM_NUMBER(entry, COSINE) = x, BEAM_NUMBER(entry, SINE) = y;
+    BEAM_NUMBER(entry, COSINE) = slides ? REAL(-1) : x, BEAM_NUMBER(entry, SINE) = slides ? 0 : y;
     /* Where nothing presses the axes of neighbouring beams scatter, and sides that only open would lean on each other:
      * nothing is kept along the crack. */
     const coeff presses = third_push < principal.first ? third_push / principal.first : REAL(1);
-    BEAM_NUMBER(entry, KEEPS) = presses * presses * (leans < 1 ? leans : REAL(1));
-    return REAL(2) * BEAM_NUMBER(entry, LATERAL) * (second_push + third_push);
+    BEAM_NUMBER(entry, KEEPS) = slides ? REAL(1) : presses * presses * (leans < 1 ? leans : REAL(1));
+    return slides ? 0 : REAL(2) * BEAM_NUMBER(entry, LATERAL) * (second_push + third_push);
 }
 
 /* Which side of a whole bond looks at it: that with the lower id where its element chose it or has open beams, else the
@@ -366,7 +379,7 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                 if (!any) continue;
                 const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                                   orientation, axial, bend, twist, beam_of, 1);
-                const lane k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond),
+                const lane k = bond.stiffness.axial * bond.inv_length0,
                            whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness, 1);
                 coeff lateral[W] = {0};
 #define LAY(l)                                                                                                         \
@@ -383,16 +396,16 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                 LANE_EACH(LAY)
 #undef LAY
                 const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
-                const beam_part part =
-                    beam_part_of(bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j,
-                                 beam_lean_at(crack, slot, lane0));
+                const beam_lean lean = beam_lean_at(crack, slot, lane0);
+                const lane_vec3 axis0 = lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0));
+                const beam_part part = beam_part_of(bond, axis0, own, q_j, lean);
 #define LATERAL(l) lateral[0x##l]
                 const lane stretch = LANE_MAKE(lane, LATERAL);
 #undef LATERAL
-                const lane pull = beam_pull(bond.shape, bond.inv_length0, bond.stiffness,
-                                            lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)),
-                                            own.orientation, q_j, beam_lean_at(crack, slot, lane0), stretch);
-                const lane y = part.energy;
+                const lane y = part.energy, cosine = beam_cosine(bond, lean),
+                           across = beam_pull(bond.shape, bond.inv_length0, bond.stiffness, axis0, own.orientation, q_j,
+                                              lean, stretch);
+                const lane pull = across + beam_slides(lean) * (LANE_SQRT(REAL(2) * k * soft_above(y, 0)) - across);
 #define BEGIN(l)                                                                                                       \
     {                                                                                                                  \
         const brc_size at = entry + 0x##l, to = (brc_size)twin[at];                                                    \
@@ -408,8 +421,7 @@ KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, G
                 for (int what = BEAM_START; what < BEAM_WIDTH; ++what) { /* beam_lean */                               \
                     const coeff sign =                                                                                 \
                         (what >= BEAM_SIDE && what < BEAM_ALONG) || what == BEAM_SINE ? REAL(-1) : REAL(1);            \
-                    crack[((to / C) * BEAM_WIDTH + (brc_size)what) * C + to % C] =                                     \
-                        sign * crack[((at / C) * BEAM_WIDTH + (brc_size)what) * C + at % C];                           \
+                    BEAM_COMPONENT(to, (brc_size)what) = sign * BEAM_COMPONENT(at, (brc_size)what);                    \
                 }                                                                                                      \
                 STORE_SAME(raised + group, 1);                                                                         \
                 STORE_SAME(raised + j / W, 1);                                                                         \

@@ -118,15 +118,15 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
                         there = soft_draws_back(f.j, taken, stiffen, inv_volume, plane, shear, reach),
                         stiffness = lane_sym3_scale_shift(lane_number(1), lane_sym3_add(here, there), bond);
         const soft_face law = soft_law_of(r);
-        const lane_mask slides = soft_slides(r);
+        const lane_mask slides = soft_slides(r), passes = soft_passes(r);
         lane keeps = soft_keeps(r.widest, release * f.ratio * soft_size(s));
         const lane_sym3 mean = soft_mean_stress(own, beside);
         lane_vec3 drive = lane_vec3_add(pull, lane_sym3_mul_vec(stiffness, before));
-        if (LANE_SOME(slides)) {
-            const lane whole = LANE_WHERE(slides, soft_force(law, r.widest) / law.start, LANE_ZERO);
+        if (LANE_SOME(passes)) {
+            const lane whole = LANE_WHERE(passes, soft_force(law, r.widest) / law.start, LANE_ZERO);
             keeps = keeps * (REAL(1) - whole);
             drive = lane_vec3_sub(
-                drive, lane_vec3_where(slides, lane_vec3_scale(whole, soft_passed(mean, axis, normal)), none));
+                drive, lane_vec3_where(passes, lane_vec3_scale(whole, soft_passed(mean, axis, normal)), none));
         }
         const lane_vec3 push = soft_carried(mean, axis, normal), carried = lane_vec3_scale(keeps, push);
         const lane_vec3 found = soft_balance(
@@ -143,8 +143,10 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
             lane_vec3_sub(soft_uneven(own.pulls, beside.pulls), lane_sym3_mul_vec(lane_sym3_sub(here, there), moved));
         const lane_mask small = LANE_LESS(lane_vec3_dot(side_before, side_before), SOFT_SIDES_EVEN * w * w),
                         rests = soft_apart(f, open) & small & ~soft_is_pushed(r, push);
+        const lane gap = lane_vec3_dot(now, axis);
+        const lane_mask along = passes & LANE_LESS(REAL(2) * gap * gap, w * w); /* it slides more than it opens */
         const lane_vec3 turn = soft_side(law, lane_max(w, r.widest), uneven, stiffness, side_before, lacks, even,
-                                         normal, ~(slides | rests));
+                                         normal, ~(slides | along | rests));
         const lane_vec3 side = lane_vec3_add(side_before, turn), edge_shift = lane_vec3_add(r.edge_shift, turn),
                         shift = lane_vec3_add(r.shift, moved);
         const lane edge = lane_vec3_dot(side, side), both = LANE_SQRT(w * w + edge);

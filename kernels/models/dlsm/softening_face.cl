@@ -96,6 +96,9 @@ LAW soft_record soft_record_of(GATHER(coeff) crack, lane_int entry)
 }
 LAW soft_face soft_law_of(soft_record r) { return (soft_face){r.start, r.energy * r.tilt, r.exponential}; }
 LAW lane_mask soft_slides(soft_record r) { return LANE_LESS(lane_number(1), r.turns); }
+/* Of faces whose crack is across a plane that is not that of a principal stress: what goes on through them beside that
+ * fades with their cohesion (soft_passed). */
+LAW lane_mask soft_passes(soft_record r) { return soft_slides(r) | LANE_LESS(r.turns, LANE_ZERO); }
 /* Of interfaces, whose sides bear on each other across their smooth plane alone. */
 LAW lane_mask soft_in_interface(soft_record r) { return LANE_LESS(r.cosine, LANE_ZERO); }
 /* More than a tenth of what the cohesion held at the onset. push: soft_carried. */

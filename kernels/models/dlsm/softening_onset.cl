@@ -312,14 +312,6 @@ KERNEL void soft_check(int n_groups, coeff share, coeff steepest, coeff screen, 
     }
 }
 
-/* Axis of a crack along an interface: across its plane, but for a pull that stands within 30 degrees of its normal:
- * across that, so that pushes along it go on as everywhere. turned: by a moment, or by sliding. */
-#define SOFT_ALONG REAL(0.8660254037844386)
-LAW soft_vector soft_along_interface(soft_vector axis, int turned, soft_vector normal)
-{
-    return turned || soft_dot(axis, normal) < SOFT_ALONG ? normal : axis;
-}
-
 /* Wishes of either side come true: the bond opens at the force it carries; without a fracture energy it is marked to
  * break. */
 KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(int) lead, OWN(coeff) area,
@@ -352,21 +344,22 @@ KERNEL void soft_begin(int n, OWN(int) row_start, OWN(int) neighbour, OWN(int) t
                                                 one_plus_tau, modulus, displacement, gradient, stress, flux, bond_part);
             const soft_vector force = at.force, uneven = at.uneven;
             const soft_vector wished = soft_scale(from == entry ? REAL(1) : REAL(-1),
-                                                  soft_part(crack, from, SOFT_AXIS)), /* seen from this side */
-                now = SOFT_IN_INTERFACE(entry) ? soft_along_interface(wished, SOFT_NUMBER(from, TURNS) > 0,
-                                                                      soft_interface_at(crack, entry, gradient, e, j))
-                                               : wished;
-            const lane_vec3 along = soft_lanes(now), normal = soft_lanes(at.normal);
-            const lane_vec3 goes_on = slides ? soft_passed(soft_spread(at.mean), along, normal)
-                                             : soft_carried(soft_spread(at.mean), along, normal);
+                                                  soft_part(crack, from, SOFT_AXIS)); /* seen from this side */
+            const int along = SOFT_IN_INTERFACE(entry) && !slides, turned = SOFT_NUMBER(from, TURNS) > 0 && !slides;
+            const soft_vector now = along ? soft_interface_at(crack, entry, gradient, e, j) : wished;
+            const lane_vec3 axis_now = soft_lanes(now), normal = soft_lanes(at.normal);
+            const lane_vec3 goes_on = slides || along ? soft_passed(soft_spread(at.mean), axis_now, normal)
+                                                      : soft_carried(soft_spread(at.mean), axis_now, normal);
             const soft_vector released = soft_add(force, REAL(-1), SOFT_LANE(goes_on, 0));
             const soft_vector axis = soft_unit(SOFT_TURNED_BACK(gradient, e, j, now));
             const coeff across = soft_dot(released, now), pulled = across > 0 ? across : 0;
-            const coeff size = slides ? soft_slide_start(released, now, friction)
-                                      : SQRT(SOFT_NUMBER(from, TURNS) > 0 ? pulled * pulled + soft_dot(uneven, uneven)
-                                                                          : soft_dot(released, released));
+            const coeff carried = turned            ? SQRT(pulled * pulled + soft_dot(uneven, uneven))
+                                  : slides || along ? soft_slide_start(released, now, friction)
+                                                    : SQRT(soft_dot(released, released));
+            const coeff least = along ? soft_least_start(SOFT_NUMBER(from, START), onset, at.normal, c) : REAL(0);
+            const coeff size = carried > least ? carried : least;
             const coeff whole = slides ? shear_energy[entry] : SOFT_NUMBER(entry, ENERGY);
-            const coeff turns = SOFT_NUMBER(from, TURNS);
+            const coeff turns = along ? SOFT_ALONG : SOFT_NUMBER(from, TURNS);
             const int mine = (int)entry, its = (int)other;
             const soft_vector side = slides ? (soft_vector){0, 0, 0} : uneven;
             open[entry] = SOFT_OPENS, open[other] = SOFT_OPENS;

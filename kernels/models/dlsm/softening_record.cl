@@ -35,6 +35,7 @@
 #define SOFT_BOOKED 25
 #define SOFT_WIDTH 26
 #define SOFT_SLIDES REAL(2)
+#define SOFT_ALONG REAL(-1)
 #define SOFT_OPENS 1  /* open: against its cohesion */
 #define SOFT_APART 2  /* open: its cohesion ended; it still shuts */
 #define SOFT_WISH 100 /* in mark: the bond is to open */

@@ -2,13 +2,24 @@
 #include "cbm_internal.h"
 #include "../../effects/fracture/bond_area.h"
 #include "../../effects/fracture/crack_range.h"
+#include "../../effects/fracture/interfaces.h"
 #include <math.h>
 
 /* E G_c / sigma_f^2 below this many diameters: the crack is not resolved. */
 static const double least_diameters = 4;
 
 /* Components of `crack` and states of `open` (beam_softening.cl). */
-enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, LATERAL = 20, WIDTH = 21 };
+enum {
+    ENERGY = 2,
+    EXPONENTIAL = 3,
+    SPENT = 6,
+    PLANE = 6,
+    TILT = 10,
+    CAPACITY = 11,
+    PER_AREA = 12,
+    LATERAL = 20,
+    WIDTH = 21
+};
 enum { WHOLE = 0, BROKEN = 3 };
 
 struct brc_beam_softening {
@@ -102,6 +113,8 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
     BRC_LOCAL(s->context, d->n_bonds, double, area, "areas of beams");
     BRC_TRY(brc_bond_areas_closed(s->context, d, area));
     BRC_TRY(brc_layout_twins(s->context, layout, d, twin));
+    BRC_FREED double *normal = NULL;
+    BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, 1, &normal));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
@@ -114,6 +127,9 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
         own[PER_AREA * layout->slice] = 1 / area[d->bond[h]];
         own[LATERAL * layout->slice] = lateral_of(s, h);
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
+        for (int c = 0; normal && c < 3; ++c)
+            own[(PLANE + c) * layout->slice] =
+                (h == d->bond_half_edge[d->bond[h]] ? 1 : -1) * normal[3 * (int64_t)d->bond[h] + c];
         lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
     }
     BRC_TRY(brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));

@@ -28,6 +28,8 @@ static const double retention = 0.3;
 /* E G_c / sigma_f^2 below this many cells: the crack is not resolved; below twice as many uneven cells bear more at
  * notches (docs/notebook/fracture.md, "Notched specimens"). */
 static const double least_cells = 4;
+/* A face of an interface has at least this share of its area in the interface's plane: some look back. */
+static const double least_projected = 0.02;
 
 /* Components of `crack` (softening_record.cl). */
 enum { SHIFT = 0, START = 9, ENERGY = 10, EXPONENTIAL = 11, COSINE = 13, TILT = 14, SPENT = 23, WIDTH = 26 };
@@ -35,7 +37,7 @@ enum { APART = 2 }; /* SOFT_APART, of `open` */
 
 struct brc_softening_faces {
     brc_pass *gradient, *gradient_listed, *flux, *flux_listed;
-    brc_pass *take_force, *coast, *move, *measure, *book, *check, *begin, *count, *list, *energy, *settle;
+    brc_pass *take_force, *coast, *move, *measure, *book, *check, *follow, *begin, *count, *list, *energy, *settle;
     brc_buffer *crack, *open, *lead;    /* [n_slots][C][WIDTH], [n_slots][C] */
     brc_buffer *opening, *edge_opening; /* [n_slots][3][C] */
     brc_buffer *n_open, *reach, *shear; /* [n_rows] */
@@ -109,6 +111,7 @@ static brc_status make_passes(brc_simulation *s, softening_faces *f)
         BRC_PASS(&f->measure, "soft_measure", "n_faces book release"),
         BRC_PASS(&f->book, "soft_book", "step"),
         BRC_PASS(&f->check, "soft_check", "share steepest screen shears slope shear_least"),
+        BRC_PASS(&f->follow, "soft_follow", "share"),
         BRC_PASS(&f->begin, "soft_begin", "friction"),
         BRC_PASS(&f->count, "soft_count", NULL),
         BRC_PASS(&f->list, "soft_list", NULL),
@@ -164,7 +167,7 @@ static brc_status upload_faces(brc_simulation *s, softening_faces *f, const brc_
     BRC_LOCAL(s->context, n_entries, int32_t, lead, "cohesion of faces");
     BRC_LOCAL(s->context, layout->n_rows, double, shear, "shear moduli");
     BRC_FREED double *normal = NULL;
-    BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, steepest, &normal));
+    BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, least_projected, &normal));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0 || !brc_domain_has(d, d->neighbour[d->twin[h]])) continue;
@@ -375,6 +378,7 @@ brc_status brc_softening_step(brc_simulation *s, double share, double *n_ended)
                     {"screen", BRC_COEFF(screen)}, {"shears", BRC_INT(f->shear_limit != NULL)},
                     {"slope", BRC_COEFF(sin(s->scene->fracture.friction))},
                     {"shear_least", BRC_COEFF(f->shear_least)}));
+    if (s->scene->n_interfaces > 0 && f->any) BRC_TRY(BRC_RUN(f->follow, n, {"share", BRC_COEFF(share)}));
     BRC_TRY(brc_vector_sum(s, found, n, &candidates));
     if (candidates > 0) {
         f->any = true;
