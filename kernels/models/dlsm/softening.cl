@@ -82,6 +82,13 @@ LAW lane soft_leans(lane cosine, lane_vec3 now, lane_vec3 normal, lane edge, lan
     return soft_tilt(cosine, LANE_SQRT(far) / both, steepest);
 }
 
+/* A face slides more than it opens. */
+LAW lane_mask soft_slides_more(lane_vec3 w, lane_vec3 axis)
+{
+    const lane gap = lane_vec3_dot(w, axis);
+    return LANE_LESS(REAL(2) * gap * gap, lane_vec3_dot(w, w));
+}
+
 /* The openings of the step whose motion has just been done, by the fluxes at the new place and the old openings: each
  * goes where its cohesion balances what the bond would pull with, by the stiffness of the two cells, along their axes
  * and across; so a sweep over all faces at once comes nearer to the balance of all. is_last: of the sweeps of this
@@ -143,8 +150,7 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
             lane_vec3_sub(soft_uneven(own.pulls, beside.pulls), lane_sym3_mul_vec(lane_sym3_sub(here, there), moved));
         const lane_mask small = LANE_LESS(lane_vec3_dot(side_before, side_before), SOFT_SIDES_EVEN * w * w),
                         rests = soft_apart(f, open) & small & ~soft_is_pushed(r, push);
-        const lane gap = lane_vec3_dot(now, axis);
-        const lane_mask along = passes & LANE_LESS(REAL(2) * gap * gap, w * w); /* it slides more than it opens */
+        const lane_mask along = passes & soft_slides_more(now, axis);
         const lane_vec3 turn = soft_side(law, lane_max(w, r.widest), uneven, stiffness, side_before, lacks, even,
                                          normal, ~(slides | along | rests));
         const lane_vec3 side = lane_vec3_add(side_before, turn), edge_shift = lane_vec3_add(r.edge_shift, turn),

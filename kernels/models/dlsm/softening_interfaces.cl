@@ -5,8 +5,8 @@
  * next to nothing of the stress there, and is no weaker than it has to be. wanted: by soft_follow; c: -cosine. */
 LAW coeff soft_least_start(coeff wanted, coeff onset, soft_vector normal, coeff c)
 {
-    const coeff half = REAL(-0.5) * c * onset * SQRT(soft_dot(normal, normal));
-    return wanted > half ? wanted : half;
+    const coeff other = REAL(-0.5) * c * onset * SQRT(soft_dot(normal, normal));
+    return wanted > other ? wanted : other;
 }
 
 /* Faces whose interfaces' normals stand within 45 degrees lie in one. */

@@ -7,7 +7,8 @@
  * together [m]; COSINE of normal and axis at the onset; of a face in an interface, whose plane no crack
  * chooses, minus that to the interface's normal, which is in SHIFT until then, from the start (others: 0 before the
  * onset) [-]; TILT: what the direction of the opening leaves of ENERGY, 1 in an interface [-]; TURNS: 1 of a face whose
- * edge opens, SOFT_SLIDES of one that slides: by shear, along the plane across AXIS, which has no v; PULL: force of the
+ * edge opens, SOFT_SLIDES of one that slides: by shear, along the plane across AXIS, which has no v, SOFT_ALONG of one
+ * that opens along its interface, in whatever way; PULL: force of the
  * bond on the own element at the last evaluation [N]; SIDE_PULL: by how much this side pulled more than the other at
  * the last evaluation [N], or RUBS: what the last step rubbed off [J]; ONSET: principal stress at the onset [Pa];
  * SPENT: energy that its cohesion took so far but for what is HELD, which comes back [J]; BOOKED: what of SPENT the

@@ -2,7 +2,6 @@
 #include "../../../../preprocess/domain/domain_rows.h"
 #include "../../../base/memory.h"
 #include "../../core/sym3.h"
-#include "bond_area.h"
 #include <math.h>
 #include <string.h>
 
@@ -123,7 +122,7 @@ static brc_status find_means(brc_context *context, interface_faces *f, int32_t n
     return BRC_OK;
 }
 
-/* Area vectors out of the elements of half_edge [n][3]: of faces, or of beams along their axes. */
+/* Area vectors out of the elements of half_edge [n][3]: of faces, or along beams, as large as their length squared. */
 static brc_status area_vectors(brc_context *context, const brc_domain *d, int32_t n, const int32_t *half_edge,
                                double *out)
 {
@@ -135,11 +134,9 @@ static brc_status area_vectors(brc_context *context, const brc_domain *d, int32_
         if (d->element_kind != BRC_ELEMENT_CELL) {
             const double *from = d->position + 3 * (int64_t)d->neighbour[d->twin[h]],
                          *to = d->position + 3 * (int64_t)d->neighbour[h];
+            const double branch[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
             for (int c = 0; c < 3; ++c)
-                v[c] = to[c] - from[c];
-            const double scale = brc_bond_area(d, d->bond[h]) / brc_norm3(v);
-            for (int c = 0; c < 3; ++c)
-                v[c] *= scale;
+                v[c] = brc_norm3(branch) * branch[c];
         }
         memcpy(out + 3 * (int64_t)k, v, 24);
     }
