@@ -1,16 +1,13 @@
 """Halves of a block slid along each other on a weak plane between uneven cells, or between spheres: they come free, at its cost."""
-import csv
-import os
-import subprocess
 import sys
 import tempfile
 
-PROGRAM = os.path.abspath(os.environ.get("BRC_PROGRAM", "build/bin/breccia"))
+from histories import run
+
 FAILURES = []
 
 # The plane bears 10 MPa over 1 cm^2, 1000 N, and costs 50 J/m^2 of it, 5 mJ, until it has slid by 10 um. Its sides are kept at their distance.
-SLIDE = """version: 1
-materials:
+SLIDE = """materials:
   stone: {{E: 50 GPa, nu: 0.2, density: 2500 kg/m^3, strength: {{tension: 100 MPa, fracture_energy: 2000 J/m^2}}}}
   twin: {{E: 50 GPa, nu: 0.2, density: 2500 kg/m^3, strength: {{tension: 100 MPa, fracture_energy: 2000 J/m^2}}}}
 model: {model}
@@ -31,7 +28,6 @@ stages:
 sensors:
   force: {{reaction: {{set: x+{layer}, component: y}}}}
   spent: {{energy: fracture}}
-output: {{frames: none, picture: false, history_every: 50}}
 """
 
 
@@ -42,18 +38,10 @@ def expect(condition, sentence):
 
 def slide(folder, name, **scene):
     """Largest force [N], mean force of the last fifth [N], energy of fracture [J]."""
-    path, out = os.path.join(folder, name + ".yaml"), os.path.join(folder, name)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(SLIDE.format(**scene))
-    done = subprocess.run([PROGRAM, "run", path, "-o", out, "--device", "cpu"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    if done.returncode != 0:
-        print(done.stdout)
-        raise SystemExit(f"{name}: breccia run ended with {done.returncode}")
-    with open(os.path.join(out, "histories.csv"), encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    force = [float(row["force [N]"]) for row in rows]
+    value, _ = run(folder, name, SLIDE.format(**scene))
+    force = value["force"]
     last = force[-len(force) // 5:]
-    figures = max(force), sum(last) / len(last), float(rows[-1]["spent [J]"])
+    figures = max(force), sum(last) / len(last), value["spent"][-1]
     print(f"{name}: {figures[0]:.0f} N at most, {figures[1]:.1f} N left, {1e3 * figures[2]:.3f} mJ")
     return figures
 
