@@ -130,8 +130,10 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
         const lane_sym3 mean = soft_mean_stress(own, beside);
         lane_vec3 drive = lane_vec3_add(pull, lane_sym3_mul_vec(stiffness, before));
         if (LANE_SOME(passes)) {
-            const lane whole = LANE_WHERE(passes, soft_force(law, r.widest) / law.start, LANE_ZERO);
-            keeps = keeps * (REAL(1) - whole);
+            const lane stays = soft_stays(r, before, axis, soft_number(crack, f.entry, SOFT_ONSET), k,
+                                          f.ratio * soft_size(s)),
+                       whole = stays * LANE_WHERE(passes, soft_force(law, r.widest) / law.start, LANE_ZERO);
+            keeps = keeps * (stays - whole);
             drive = lane_vec3_sub(
                 drive, lane_vec3_where(passes, lane_vec3_scale(whole, soft_passed(mean, axis, normal)), none));
         }

@@ -11,8 +11,6 @@ LAW coeff soft_least_start(coeff wanted, coeff onset, soft_vector normal, coeff 
 
 /* Faces whose interfaces' normals stand within 45 degrees lie in one. */
 #define SOFT_SAME_PLANE REAL(0.7071067811865476)
-/* A whole face opens where it would bear as many times its strength, did it bear the slide beside it. */
-#define SOFT_PASSED REAL(2)
 
 /* The furthest slide of the faces of the element of an entry that lie in an interface as it does, along its plane [m].
  * normal: of that, as it is now. */
@@ -33,7 +31,7 @@ LAW coeff soft_slid_beside(int e, soft_vector normal, OWN(int) row_start, OWN(in
 
 /* After soft_check, in scenes with interfaces: a face that the slide of its neighbours pushes, as one does that stands
  * across the way, is never pulled open: it would hold both sides for ever. It opens too where its cell's other faces
- * have slid by what it could not bear. START until the onset: the least that its cohesion starts at [N]. */
+ * have slid by half of what it could not bear. START until the onset: the least that its cohesion starts at [N]. */
 KERNEL void soft_follow(int n, coeff share, OWN(int) row_start, OWN(int) neighbour, OWN(int) lead, OWN(int) n_open,
                         OWN(coeff) area, OWN(coeff) ratio, coeff k_one, GATHER(coeff) modulus, GATHER(coeff) gradient,
                         OWN(coeff) limit, OWN(coeff) opening, UPDATE(coeff) crack, UPDATE(int) mark, PUT(coeff) measure,

@@ -13,9 +13,10 @@ int32_t brc_interface_of(const brc_scene *scene, const brc_domain *domain, const
 /* Normals of interfaces: [n_bonds][3], out of the bond's smaller element, as long as the cosine c between the face, or
  * the beam, and the interface, or as `least` where that is more [-]; 0 of bonds in none; NULL: no bond lies in one; the
  * caller frees with brc_memory_free. An interface between uneven elements is rough, and a crack along it is as large as
- * its smooth plane: its normal at a face is the mean over the faces between the same two materials or grains at the
- * elements on one side that share one of the other side with this face, each weighed by its area, three times over;
- * from the second on without normals that stand 30 degrees off, beyond an edge. The face's own where these look too
+ * its smooth plane. Its normal at a face is a mean of means: over the faces between the same two materials or grains at
+ * the elements on one side that share one of the other side with this face, each weighed by its area. Steps of whole
+ * cells cancel in it. Beside an edge of the interface, which such a mean rounds off, it is that of the flattest place
+ * around, and the last mean leaves out normals that stand 30 degrees off. The face's own where they all look too
  * many ways for a plane. All ranks. BRC_NO_MEMORY. */
 brc_status brc_interface_normals(brc_context *context, const brc_scene *scene, const brc_domain *domain,
                                  const int32_t *material, double least, double **out);
