@@ -4,8 +4,6 @@ import math
 import sys
 import tempfile
 
-import numpy as np
-
 from histories import run
 
 RADIUS, LENGTH, SHEAR, STRENGTH, ENERGY = 5e-3, 10e-3, 70e9 / 2.4, 20e6, 100.0  # of a half: m, m, Pa, Pa, J/m^2
@@ -37,50 +35,61 @@ def expect(condition, sentence):
         FAILURES.append(sentence)
 
 
-def compliance(n_r=30, n_z=36):
+def solved(rows, right):
+    """x of rows x = right, a list of columns each, by elimination."""
+    n = len(rows)
+    work = [list(row) + list(more) for row, more in zip(rows, right)]
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda k: abs(work[k][i]))
+        work[i], work[pivot] = work[pivot], work[i]
+        one = work[i] = [value / work[i][i] for value in work[i]]
+        for k in range(n):
+            if k != i and work[k][i] != 0:
+                part = work[k][i]
+                work[k] = [value - part * other for value, other in zip(work[k], one)]
+    return [row[n:] for row in work]
+
+
+def compliance(n_r=25, n_z=20):
     """Of a half whose far end is held: radii [m], turns of its near end over the shear stress there [1/Pa], and the moment of a unit stress at a
-    radius [m^3]. Turns phi(r, z) of least energy G pi sum of r^3 |grad phi|^2."""
-    r, z = np.linspace(0, RADIUS, n_r + 1), LENGTH * np.linspace(0, 1, n_z + 1) ** 1.6
-    edge = np.concatenate([[0], (r[1:] + r[:-1]) / 2, [RADIUS]])
-    cube, square = np.diff(edge**4) / 4, np.diff(edge**3) / 3
-    height = np.concatenate([[0], (z[1:] + z[:-1]) / 2, [LENGTH]])
-    k = np.zeros(((n_r + 1) * (n_z + 1),) * 2)
-
-    def join(a, b, spring):
-        k[a, a] += spring
-        k[b, b] += spring
-        k[a, b] -= spring
-        k[b, a] -= spring
-
-    for i in range(n_r + 1):
-        for j in range(n_z + 1):
-            here = i * (n_z + 1) + j
-            if j < n_z:
-                join(here, here + 1, 2 * math.pi * SHEAR * cube[i] / (z[j + 1] - z[j]))
-            if i < n_r:
-                join(here, here + n_z + 1, 2 * math.pi * SHEAR * ((r[i] + r[i + 1]) / 2) ** 3 * (height[j + 1] - height[j]) / (r[i + 1] - r[i]))
-    free = np.array([i * (n_z + 1) + j for i in range(n_r + 1) for j in range(n_z)])
-    near = np.arange(n_r + 1) * n_z
-    weight = 2 * math.pi * square
-    return r, np.linalg.inv(k[np.ix_(free, free)])[np.ix_(near, near)] * weight, weight
+    radius [m^3]. Turns phi(r, z) of least energy G pi sum of r^3 |grad phi|^2, layer by layer from the far end."""
+    r, z = [RADIUS * i / n_r for i in range(n_r + 1)], [LENGTH * (j / n_z) ** 1.6 for j in range(n_z + 1)]
+    edge = [0.0] + [(a + b) / 2 for a, b in zip(r, r[1:])] + [RADIUS]
+    stiff = 2 * math.pi * SHEAR
+    below = [[0.0] * (n_r + 1) for _ in r]  # what the layers beyond one add to its stiffness
+    for j in range(n_z - 1, -1, -1):
+        along = [stiff * (b**4 - a**4) / 4 / (z[j + 1] - z[j]) for a, b in zip(edge, edge[1:])]
+        height = (z[j + 1] - (z[j - 1] if j > 0 else z[0])) / 2
+        if j == n_z - 1:
+            below = [[along[i] * (i == k) for k in range(n_r + 1)] for i in range(n_r + 1)]
+        else:
+            series = solved([[below[i][k] + along[i] * (i == k) for k in range(n_r + 1)] for i in range(n_r + 1)], below)
+            below = [[along[i] * series[i][k] for k in range(n_r + 1)] for i in range(n_r + 1)]
+        for i in range(n_r):
+            spring = stiff * ((r[i] + r[i + 1]) / 2) ** 3 * height / (r[i + 1] - r[i])
+            for a, b, sign in ((i, i, 1), (i + 1, i + 1, 1), (i, i + 1, -1), (i + 1, i, -1)):
+                below[a][b] += sign * spring
+    weight = [2 * math.pi * (b**3 - a**3) / 3 for a, b in zip(edge, edge[1:])]
+    return r, solved(below, [[weight[k] * (i == k) for k in range(n_r + 1)] for i in range(n_r + 1)]), weight
 
 
-def largest_moment():
+def largest_moment(step=2.5e-5):
     """Of the smooth plane [N m]: the far ends turn on; where the stress has reached the strength it falls linearly with the slide 2 r phi."""
     r, gives, weight = compliance()
-    soft = 2 * STRENGTH * r / (2 * ENERGY / STRENGTH)
-    sticks, most = np.ones(len(r), bool), 0.0
-    for turn in np.linspace(1e-5, 3e-3, 600):
-        for _ in range(len(r)):
-            rows = np.where(sticks[:, None], gives, np.eye(len(r)) - soft[:, None] * gives)
-            stress = np.linalg.solve(rows, np.where(sticks, turn, STRENGTH - soft * turn))
-            beyond = sticks & (stress > STRENGTH)
-            if not beyond.any():
+    soft = [2 * STRENGTH * a / (2 * ENERGY / STRENGTH) for a in r]
+    sticks, most, turn, n = [True] * len(r), 0.0, 0.0, len(r)
+    while turn < 3e-3:
+        turn += step
+        while True:
+            rows = [gives[i] if sticks[i] else [(i == k) - soft[i] * gives[i][k] for k in range(n)] for i in range(n)]
+            stress = [row[0] for row in solved(rows, [[turn if sticks[i] else STRENGTH - soft[i] * turn] for i in range(n)])]
+            beyond = [sticks[i] and stress[i] > STRENGTH for i in range(n)]
+            if not any(beyond):
                 break
-            sticks &= ~beyond
-        if (turn - gives @ stress)[~sticks].min(initial=0) < -1e-12:
+            sticks = [sticks[i] and not beyond[i] for i in range(n)]
+        if any(not sticks[i] and sum(g * s for g, s in zip(gives[i], stress)) > turn + 1e-12 for i in range(n)):
             break  # past the largest one it snaps
-        most = max(most, float(stress @ weight))
+        most = max(most, sum(s * w for s, w in zip(stress, weight)))
     return most
 
 

@@ -130,8 +130,7 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
         const lane_sym3 mean = soft_mean_stress(own, beside);
         lane_vec3 drive = lane_vec3_add(pull, lane_sym3_mul_vec(stiffness, before));
         if (LANE_SOME(passes)) {
-            const lane stays = soft_stays(r, before, axis, soft_number(crack, f.entry, SOFT_ONSET), k,
-                                          f.ratio * soft_size(s)),
+            const lane stays = soft_stays(f, r, before, axis, soft_number(crack, f.entry, SOFT_ONSET), k),
                        whole = stays * LANE_WHERE(passes, soft_force(law, r.widest) / law.start, LANE_ZERO);
             keeps = keeps * (stays - whole);
             drive = lane_vec3_sub(
@@ -144,8 +143,7 @@ KERNEL void soft_move(int n_items, int n_faces, OWN(int) face_row, OWN(int) face
         const lane_vec3 now = lane_vec3_where(slides | soft_in_interface(r), found, soft_outside(found, normal));
         const lane w = soft_size(now),
                    even = soft_above(-lane_vec3_dot(pull, axis), 0) / (f.ratio * LANE_SQRT(soft_size(s)));
-        const lane_vec3 side_before = soft_rows(edge_opening, f.entry);
-        const lane_vec3 moved = lane_vec3_sub(now, before),
+        const lane_vec3 side_before = soft_rows(edge_opening, f.entry), moved = lane_vec3_sub(now, before),
                         lacks = soft_sides_lack(f, own, beside, lane_vec3_dot(lane_vec3_sub(given, taken), s), share,
                                                 moved, side_before);
         const lane_vec3 uneven =

@@ -106,13 +106,13 @@ LAW lane_mask soft_in_interface(soft_record r) { return LANE_LESS(r.cosine, LANE
 #define SOFT_PASSED REAL(0.5)
 /* What goes on through a face of an interface beside what acts on its plane, of itself [-]: the steps of a rough
  * interface push each other as it slides, which its plane does not know of, and would go on doing so. So it falls to 0
- * as the face slides further than it opens by what its strength, onset, strains it by. before: opening; length: of the
- * branch [m]. */
-LAW lane soft_stays(soft_record r, lane_vec3 before, lane_vec3 axis, lane onset, lane k, lane length)
+ * as the face slides further than it opens by what its strength, onset, strains it by. before: opening. */
+LAW lane soft_stays(soft_faces f, soft_record r, lane_vec3 before, lane_vec3 axis, lane onset, lane k)
 {
     const lane gap = lane_vec3_dot(before, axis), slid = soft_size(lane_vec3_more(before, -gap, axis)) - gap;
     const lane_mask slides = soft_in_interface(r) & LANE_LESS(LANE_ZERO, slid);
-    return LANE_WHERE(slides, soft_above(REAL(1) - slid * k / (SOFT_PASSED * onset * length), 0), lane_number(1));
+    const lane far = SOFT_PASSED * onset * (f.ratio * soft_size(f.area)); /* k times it; f.ratio |s|: the branch */
+    return LANE_WHERE(slides, soft_above(REAL(1) - slid * k / far, 0), lane_number(1));
 }
 /* More than a tenth of what the cohesion held at the onset. push: soft_carried. */
 LAW lane_mask soft_is_pushed(soft_record r, lane_vec3 push)
