@@ -30,10 +30,6 @@ static void times(const double g[6], const double a[3], double out[3])
     out[1] = g[5] * a[0] + g[1] * a[1] + g[3] * a[2];
     out[2] = g[4] * a[0] + g[3] * a[1] + g[2] * a[2];
 }
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* Of half-edge h of cell e the branch R and S / L. */
 static double branch(const brc_domain *d, int64_t e, int64_t h, double r[3])
@@ -69,14 +65,14 @@ static double yields(const brc_simulation *s, int64_t e, const double g[6], int6
         double r[3], q[3];
         const double ratio = branch(d, e, lost, r);
         times(g, r, q);
-        const double left = 1 - ratio * dot(r, q), more = ratio * dot(q, arm) / left;
+        const double left = 1 - ratio * brc_dot3(r, q), more = ratio * brc_dot3(q, arm) / left;
         if (left < least_left) return 0;
         for (int c = 0; c < 3; ++c)
             p[c] += more * q[c];
     }
     for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
         if (h == lost) continue;
-        const double c = dot(p, d->area_vector + 3 * h);
+        const double c = brc_dot3(p, d->area_vector + 3 * h);
         own -= c;
         sum += c * c / brc_mass_of_element(s, d->neighbour[h]);
     }
@@ -226,7 +222,7 @@ static void fill_cell(const brc_simulation *s, free_faces *f, int64_t e)
         f->element[to] = (int32_t)e, f->share[to] = 1, f->face[to] = (int32_t)k;
         times(g, arm, p);
         for (int64_t h = d->row_start[e]; h < d->row_start[e + 1]; ++h) {
-            f->share[++to] = dot(p, d->area_vector + 3 * h);
+            f->share[++to] = brc_dot3(p, d->area_vector + 3 * h);
             f->element[to] = d->neighbour[h], f->face[to] = (int32_t)k;
             f->share[f->start[k]] -= f->share[to];
         }
@@ -262,7 +258,7 @@ static face_springs row_of(const brc_simulation *s, free_faces *f, int64_t k)
     }
     for (int64_t i = 0; i < n_near; ++i) {
         const int64_t other = f->near[i];
-        const double *m = area + 3 * k, *n = area + 3 * other, c = dot(m, n) / (brc_norm3(m) * brc_norm3(n));
+        const double *m = area + 3 * k, *n = area + 3 * other, c = brc_dot3(m, n) / (brc_norm3(m) * brc_norm3(n));
         const face_springs a = f->springs[k], b = f->springs[other];
         const double yields = fabs(f->yields[other]);
         f->yields[other] = 0;

@@ -62,11 +62,6 @@ static bool leads_across(const interface_faces *f, int32_t interface, int32_t e,
            side_of(f, interface, j) == other;
 }
 
-static double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Between normals that stand further apart than this lies an edge of the interface: the cosine. */
 static const double same_side = 0.866;
 
@@ -79,7 +74,7 @@ static void add_faces(const interface_faces *f, int32_t e, surroundings *a)
         const int32_t at = f->face[d->bond[h]];
         const double sign = d->bond_half_edge[d->bond[h]] == h ? 1 : -1;
         const double *v = f->vector + 3 * (int64_t)at, size = brc_norm3(v);
-        const double cosine = sign * dot3(v, a->own) / (size * brc_norm3(a->own)), score = f->flat[at] * cosine;
+        const double cosine = sign * brc_dot3(v, a->own) / (size * brc_norm3(a->own)), score = f->flat[at] * cosine;
         for (int c = 0; c < 3; ++c) {
             a->sum[c] += sign * v[c];
             if (cosine > same_side) a->near[c] += sign * v[c];
@@ -194,7 +189,7 @@ static brc_status smooth(brc_context *context, interface_faces *f)
     for (int64_t k = 0; k < f->n_faces; ++k) {
         double *v = f->vector + 3 * k;
         const double *s = sharp + 3 * k;
-        if (dot3(v, s) < same_side * brc_norm3(v) * brc_norm3(s)) memcpy(v, s, 24);
+        if (brc_dot3(v, s) < same_side * brc_norm3(v) * brc_norm3(s)) memcpy(v, s, 24);
     }
     return take_normals(context, f, MEAN_NEAR);
 }
@@ -217,7 +212,7 @@ static brc_status find_normals(brc_context *context, interface_faces *f, double 
     for (int64_t b = 0; b < d->n_bonds; ++b) {
         if (f->face[b] < 0) continue;
         const double *s = own + 3 * (int64_t)f->face[b], *along = vector + 3 * (int64_t)f->face[b];
-        const double size = brc_norm3(s), c = dot3(s, along) / (size * size);
+        const double size = brc_norm3(s), c = brc_dot3(s, along) / (size * size);
         for (int k = 0; k < 3; ++k)
             (*out)[3 * b + k] = fmax(c, least) / size * along[k];
     }

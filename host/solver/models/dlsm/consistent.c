@@ -3,6 +3,7 @@
  * depends on the tensor sum R (x) c alone, and an element's half of it vanishes when, with P = sum R (x) s and N = sum
  * (w/kappa) R (x) R, P A^-1 P^T = N. Exactly that is solved here; without rounding it is the inverse of A = P = N. */
 #include "consistent.h"
+#include "../../core/sym3.h"
 #include <math.h>
 
 typedef long double wide; /* at least as good as double; 11 bits better on x86, 60 on most others */
@@ -21,18 +22,13 @@ static void branch_of(const brc_domain *d, int64_t element, int64_t half_edge, w
         branch[c] = (wide)d->position[3 * j + c] - d->position[3 * element + c];
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 void brc_consistent_bond(const brc_simulation *s, int64_t element, int64_t half_edge, double area[3], double *ratio)
 {
     wide exact[3];
     branch_of(s->domain, element, half_edge, exact);
     const double branch[3] = {(double)exact[0], (double)exact[1], (double)exact[2]};
     const double *surface = s->domain->area_vector + 3 * half_edge;
-    *ratio = held(s, sqrt(dot(branch, branch) / dot(surface, surface)));
+    *ratio = held(s, sqrt(brc_dot3(branch, branch) / brc_dot3(surface, surface)));
     for (int c = 0; c < 3; ++c)
         area[c] = held(s, (double)(exact[c] / *ratio));
 }
