@@ -65,6 +65,7 @@
 #include "models/dlsm/closed_faces.cl"
 #include "models/cbm/beam_carried.h"
 #include "models/cbm/beam_softening.cl"
+#include "models/cbm/beam_onset.cl"
 #include "models/cbm/beam_closure.cl"
 
 /* Passes are compiled twice from one text: over all elements ... */

@@ -13,7 +13,8 @@
  * element cannot fail. near [n / W]: the last step in which some member of an element of the group had by itself a
  * bound of near_margin [n] or more, the smallest limit_margin of that member and its neighbours [-]: without one the
  * mean is below it too. factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element;
- * only read if weighted. */
+ * only read if weighted. plane [slot][3][C]: the normal of the interface that a bond lies in, in the undeformed body,
+ * else 0; turned [n][4]: orientations of the elements; only read if joined. */
 
 #define RECORD 8
 /* Component 0 of a row or of a lane of rows; the next are C further on. */
@@ -122,28 +123,61 @@ typedef struct {
     coeff gain; /* [-] */
 } fracture_pick;
 
+/* `a` turned with element e: a + 2 w v x a + 2 v x (v x a); back: against it. */
+ROUTINE failure_axis fracture_turn(OWN(state) turned, int e, int back, failure_axis a)
+{
+    GLOBAL const state *q = turned + (brc_size)e * 4;
+    const coeff w = (coeff)q[0], x = (coeff)q[1], y = (coeff)q[2], z = (coeff)q[3], k = (back ? REAL(-2) : REAL(2)) * w;
+    const failure_axis once = {y * a.z - z * a.y, z * a.x - x * a.z, x * a.y - y * a.x};
+    const failure_axis twice = {y * once.z - z * once.y, z * once.x - x * once.z, x * once.y - y * once.x};
+    return (failure_axis){a.x + k * once.x + REAL(2) * twice.x, a.y + k * once.y + REAL(2) * twice.y,
+                          a.z + k * once.z + REAL(2) * twice.z};
+}
+
+/* Normal of the interface that a bond lies in [-]; 0: in none. */
+LAW failure_axis fracture_plane_of(OWN(coeff) plane, int slot, int e)
+{
+    GLOBAL const coeff *n = plane + (brc_size)slot * 3 * C + e % C;
+    return (failure_axis){n[0], n[C], n[2 * C]};
+}
+LAW int fracture_lies(failure_axis n) { return n.x * n.x + n.y * n.y + n.z * n.z > 0; }
+
+/* cos 60 degrees: an interface fails by a direction of failure that stands no farther from its normal. */
+#define FRACTURE_ACROSS REAL(0.5)
+
 /* The bond with the largest |cos| to the direction of failure over its factor, the first of equals. gain: that over the
  * largest |cos| of all: the element fails when ratio times gain is 1, so a bond of factor f in the direction of failure
  * goes at f times the limit, and one farther off at as much more as its |cos| is smaller. Without factors the nearest
- * bond, and gain is 1. */
-LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, OWN(int) row_start, OWN(int) neighbour,
-                                   OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) factor)
+ * bond, and gain is 1. A bond in an interface goes at f times the limit however it stands to the direction of failure,
+ * as long as the interface's normal stands within 60 degrees of it; of some alike the nearest. */
+LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, int joined, OWN(int) row_start,
+                                   OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) factor,
+                                   OWN(coeff) plane, OWN(state) turned)
 {
-    coeff best = REAL(-1), nearest = REAL(-1);
-    int other = -1;
+    coeff best = REAL(-1), nearest = REAL(-1), weak = 0, weak_aligned = REAL(-1);
+    int other = -1, across = -1;
     for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
         const brc_size entry = (brc_size)slot * C + e % C;
         const int j = neighbour[entry];
         if (j == e) continue;
         const failure_axis x = fracture_branch_of(e, j, slot, branch, displacement);
         const coeff aligned = failure_alignment(failed, x, REAL(1) / SQRT(x.x * x.x + x.y * x.y + x.z * x.z));
-        const coeff counts = weighted ? aligned / factor[entry] : aligned;
+        const coeff inverse = weighted ? REAL(1) / factor[entry] : REAL(1);
+        const failure_axis n = joined ? fracture_plane_of(plane, slot, e) : (failure_axis){0, 0, 0};
         nearest = failure_larger(nearest, aligned);
+        if (fracture_lies(n)) {
+            if (failure_alignment(failed, fracture_turn(turned, e, 0, n), REAL(1)) < FRACTURE_ACROSS) continue;
+            if (!(inverse > weak || (inverse == weak && aligned > weak_aligned))) continue;
+            weak = inverse, weak_aligned = aligned, across = j;
+            continue;
+        }
+        const coeff counts = weighted ? aligned / factor[entry] : aligned;
         if (!(counts > best)) continue;
         best = counts;
         other = j;
     }
-    return (fracture_pick){other, nearest > 0 ? best / nearest : REAL(1)};
+    const coeff gain = other < 0 ? 0 : nearest > 0 ? best / nearest : REAL(1);
+    return across >= 0 && weak >= gain ? (fracture_pick){across, weak} : (fracture_pick){other, gain};
 }
 
 /* 1: of an element whose bonds are of different strength and which only tension can fail, none of them can go, shown
@@ -151,8 +185,8 @@ LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, OW
  * (fracture_pick): bonds with a factor above the ratio cannot, and of the others one that lies nearer to the axis than
  * theirs allow is enough. Most elements that wait with a weak bond across the pull are let off here. Room for rounding
  * as in failure_possible. */
-LAW int fracture_spared(int e, failure_stress s, coeff tension, OWN(int) row_start, OWN(int) neighbour,
-                        OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) factor)
+LAW int fracture_spared(int e, failure_stress s, coeff tension, int joined, OWN(int) row_start, OWN(int) neighbour,
+                        OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) factor, OWN(coeff) plane)
 {
     const failure_leading lead = failure_leading_of(s);
     const coeff most = REAL(1.001) * lead.first / tension;
@@ -162,6 +196,7 @@ LAW int fracture_spared(int e, failure_stress s, coeff tension, OWN(int) row_sta
         const brc_size entry = (brc_size)slot * C + e % C;
         const int j = neighbour[entry];
         if (j == e || factor[entry] > most) continue;
+        if (joined && fracture_lies(fracture_plane_of(plane, slot, e))) return 0;
         const failure_axis x = fracture_branch_of(e, j, slot, branch, displacement);
         const coeff times = most / factor[entry];
         const coeff share =
@@ -180,10 +215,10 @@ LAW int fracture_spared(int e, failure_stress s, coeff tension, OWN(int) row_sta
 }
 
 /* An element at a limit chooses a bond; measure: its stress then [Pa]. */
-LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear shear, int weighted, OWN(int) row_start,
-                            OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) limits,
-                            OWN(coeff) factor, OWN(coeff) weakest, PUT(int) choice, PUT(coeff) measure,
-                            SCATTER(int) mark)
+LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear shear, int weighted, int joined,
+                            OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement,
+                            OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest, OWN(coeff) plane,
+                            OWN(state) turned, PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
     const failure_limits limit = fracture_limits_of(limits, e);
     const coeff least = weighted ? weakest[e] : REAL(1);
@@ -192,14 +227,14 @@ LAW void fracture_choose_of(int e, int step, failure_stress s, failure_shear she
     if (weighted && limit.tension > 0) {
         const failure_limits others = {0, reachable.compression, reachable.shear};
         if (!failure_possible(s, others, shear) &&
-            fracture_spared(e, s, limit.tension, row_start, neighbour, branch, displacement, factor))
+            fracture_spared(e, s, limit.tension, joined, row_start, neighbour, branch, displacement, factor, plane))
             return;
     }
     const failure_principal p = failure_principal_of(s);
     const failure_state failed = failure_of(p, limit, shear);
     if (!(failed.ratio >= least)) return;
-    const fracture_pick pick =
-        fracture_pick_of(e, failed, weighted, row_start, neighbour, branch, displacement, factor);
+    const fracture_pick pick = fracture_pick_of(e, failed, weighted, joined, row_start, neighbour, branch, displacement,
+                                                factor, plane, turned);
     if (pick.other < 0 || !(failed.ratio * pick.gain >= REAL(1))) return;
     choice[e] = 4 * pick.other + failed.mode;
     measure[e] = failed.stress;
@@ -241,10 +276,11 @@ KERNEL void fracture_near(int n_groups, int step, OWN(int) row_start, OWN(int) n
 /* Levels 0 and 1: what each element loses. Only elements which the bound lets fail look at stresses: few of a group
  * do. screened: fracture_near has marked this step's groups, all others are passed by. */
 KERNEL void fracture_check(int n_groups, int level, int step, int screened, int drucker_prager, coeff slope,
-                           coeff friction, int weighted, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
-                           GATHER(state) displacement, OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest,
-                           GATHER(coeff) record, GATHER(coeff) stress_bound, OWN(coeff) limit_margin, OWN(coeff) weight,
-                           OWN(int) near, PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
+                           coeff friction, int weighted, int joined, OWN(int) row_start, OWN(int) neighbour,
+                           OWN(coeff) branch, GATHER(state) displacement, OWN(coeff) limits, OWN(coeff) factor,
+                           OWN(coeff) weakest, OWN(coeff) plane, OWN(state) turned, GATHER(coeff) record,
+                           GATHER(coeff) stress_bound, OWN(coeff) limit_margin, OWN(coeff) weight, OWN(int) near,
+                           PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
 {
     FOR_EACH_GROUP(group, n_groups)
     {
@@ -264,31 +300,33 @@ KERNEL void fracture_check(int n_groups, int level, int step, int screened, int 
         for (int l = 0; any && l < W; ++l) {
             if (!look[l]) continue;
             const failure_stress s = fracture_mean_of(first + l, level, row_start, neighbour, record);
-            fracture_choose_of(first + l, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits,
-                               factor, weakest, choice, measure, mark);
+            fracture_choose_of(first + l, step, s, shear, weighted, joined, row_start, neighbour, branch, displacement,
+                               limits, factor, weakest, plane, turned, choice, measure, mark);
         }
     }
 }
 
 /* The same from stresses [n][6]. */
 KERNEL void fracture_choose(int n_rows, int step, int drucker_prager, coeff slope, coeff friction, int weighted,
-                            OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement,
-                            OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest, OWN(coeff) stress,
-                            PUT(int) choice, PUT(coeff) measure, SCATTER(int) mark)
+                            int joined, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch,
+                            GATHER(state) displacement, OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) weakest,
+                            OWN(coeff) plane, OWN(state) turned, OWN(coeff) stress, PUT(int) choice, PUT(coeff) measure,
+                            SCATTER(int) mark)
 {
     FOR_EACH_ITEM(e, n_rows) {
         const failure_shear shear = {drucker_prager, slope, friction};
         const failure_stress s = fracture_stress_of(stress, e);
         choice[e] = -1;
-        fracture_choose_of(e, step, s, shear, weighted, row_start, neighbour, branch, displacement, limits, factor,
-                           weakest, choice, measure, mark);
+        fracture_choose_of(e, step, s, shear, weighted, joined, row_start, neighbour, branch, displacement, limits,
+                           factor, weakest, plane, turned, choice, measure, mark);
     }
 }
 
 /* How far every element is on its way to failure [n]. */
-KERNEL void fracture_ratio(int n_rows, int drucker_prager, coeff slope, coeff friction, int weighted,
+KERNEL void fracture_ratio(int n_rows, int drucker_prager, coeff slope, coeff friction, int weighted, int joined,
                            OWN(int) row_start, OWN(int) neighbour, OWN(coeff) branch, GATHER(state) displacement,
-                           OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) stress, PUT(coeff) ratio)
+                           OWN(coeff) limits, OWN(coeff) factor, OWN(coeff) plane, OWN(state) turned, OWN(coeff) stress,
+                           PUT(coeff) ratio)
 {
     FOR_EACH_ITEM(e, n_rows) {
         const failure_shear shear = {drucker_prager, slope, friction};
@@ -298,8 +336,8 @@ KERNEL void fracture_ratio(int n_rows, int drucker_prager, coeff slope, coeff fr
         const failure_state failed = failure_of(p, limit, shear);
         coeff gain = REAL(1);
         if (weighted) {
-            const fracture_pick pick =
-                fracture_pick_of(e, failed, 1, row_start, neighbour, branch, displacement, factor);
+            const fracture_pick pick = fracture_pick_of(e, failed, 1, joined, row_start, neighbour, branch,
+                                                        displacement, factor, plane, turned);
             gain = pick.gain;
         }
         ratio[e] = failed.ratio * gain; /* of names: clang's target reading cannot map a member of a call's value */

@@ -8,15 +8,16 @@
  * that of a spring of stiffness k = E S / l0, stretched by sqrt(2 Y / k); in series with it the beam opens, and the
  * cohesion balances the spring (soft_opening). D is the secant to where it stood at its widest.
  *
- * crack [n_slots][BEAM_WIDTH][C], of an entry: DAMAGE D [-]; START, ENERGY: soft_face (ENERGY: G_c area, of a crack
- * across the beam) [N] [J]; EXPONENTIAL: 1, else linear; WIDEST: largest opening [m]; HELD: Y as of the last step [J];
- * SPENT: energy that the opening took so far, BOOKED: by the last step [J]; ONSET: stress of the element that failed
- * [Pa], MODE of it; TILT: |cos| of the beam and its opening, not less than the steepest [-]; CAPACITY: strength times
- * area [N]; PER_AREA: one over the area [1/m^2]; SIDE (3 components), ALONG, COSINE, SINE, KEEPS: beam_lean; LATERAL:
- * nu / E [1/Pa]. PLANE (3 components), of a whole beam in an interface: the normal of its plane [-], else 0.
- * Entries: open: 0 whole, 1 opens, 2 its cohesion ended in this step, 3 broken; lead: 1 on the side with
- * the lower id, which computes for both; twin: the other entry. active [n / W], touched [n]: 1 from the first opening
- * of the group and of the element on; raised [n / W]: the same, of openings that beam_soft_keep has not seen yet too.
+ * crack [n_slots][BEAM_WIDTH][C], of an entry: DAMAGE D [-]; START, ENERGY: soft_face (START before it opens:
+ * beam_least; ENERGY: G_c area, of a crack across the beam) [N] [J]; EXPONENTIAL: 1, else linear; WIDEST: largest
+ * opening [m]; HELD: Y as of the last step [J]; SPENT: energy that the opening took so far, BOOKED: by the last step
+ * [J]; ONSET: stress of the element that failed [Pa], MODE of it; TILT: |cos| of the beam and its opening, not less
+ * than the steepest [-]; CAPACITY: strength times area [N]; PER_AREA: one over the area [1/m^2]; SIDE (3 components),
+ * ALONG, COSINE, SINE, KEEPS: beam_lean; LATERAL: nu / E [1/Pa]. Entries: open: 0 whole, 1 opens, 2 its cohesion ended
+ * in this step, 3 broken; lead: BEAM_LEADS on the side with the lower id, which computes for both, BEAM_JOINED of an
+ * interface; twin: the other entry. active [n / W], touched [n]: 1 from the first opening of the group and of the
+ * element on, active also with beams of an interface; raised [n / W]: the same, of openings that beam_soft_keep has not
+ * seen yet too.
  */
 
 #define BEAM_DAMAGE 0
@@ -28,7 +29,6 @@
 #define BEAM_SPENT 6
 #define BEAM_BOOKED 7
 #define BEAM_ONSET 8
-#define BEAM_PLANE BEAM_SPENT /* until the beam opens */
 #define BEAM_MODE 9
 #define BEAM_TILT 10
 #define BEAM_CAPACITY 11
@@ -44,6 +44,8 @@
 #define BEAM_OPENS 1
 #define BEAM_ENDED 2
 #define BEAM_BROKEN 3
+#define BEAM_LEADS 1
+#define BEAM_JOINED 2
 #define BEAM_NEVER REAL(1e30) /* factor of a bond that is not chosen again */
 
 #define BEAM_COMPONENT(entry, c) crack[(((entry) / C) * BEAM_WIDTH + (c)) * C + (entry) % C]
@@ -74,14 +76,13 @@ LAW beam_part beam_part_of(cbm_bond bond, lane_vec3 axis0, cbm_own own, lane_qua
                        cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness, 1) - left.energy};
 }
 
-/* |cos| between the axis and the opening; along an interface that of the axis and the interface's normal. */
-LAW lane beam_cosine(cbm_bond bond, beam_lean lean)
+/* |cos| between the axis and the opening. */
+LAW lane beam_cosine(cbm_bond bond)
 {
     const lane_vec3 opening = beam_opening(bond.shape);
     const lane along = lane_vec3_dot(opening, cbm_axis(bond.shape)) * bond.inv_length0;
-    const lane cosine = LANE_SQRT(
-        along * along / (lane_vec3_dot(opening, opening) + REAL(1e-30) * bond.shape.length0 * bond.shape.length0));
-    return cosine + beam_slides(lean) * (lean.along - cosine);
+    return LANE_SQRT(along * along /
+                     (lane_vec3_dot(opening, opening) + REAL(1e-30) * bond.shape.length0 * bond.shape.length0));
 }
 
 /* Any lane of a slot: open has one of the two states. */
@@ -195,11 +196,11 @@ KERNEL void beam_soft_virial(int n_groups, OWN(int) row_start, OWN(int) neighbou
 }
 
 /* One beam after the motion of a step: y: Y [J], k [N/m], w: opening that the cohesion balances [m], left: force there
- * [N], cosine of its opening; keeps, faded: beam_fades, and what that costs the push along the crack [J]. The work of
- * the opening is the mean of Y times what D grew by, as velocity Verlet's own work is the mean of the forces at both
- * ends of the step. */
+ * [N], tilt: share of its energy that it costs; keeps, faded: beam_fades, and what that costs the push along the crack
+ * [J]. The work of the opening is the mean of Y times what D grew by, as velocity Verlet's own work is the mean of the
+ * forces at both ends of the step. */
 ROUTINE void beam_follow(SCATTER(coeff) crack, SCATTER(int) open, brc_size entry, brc_size other, coeff y, coeff k,
-                         coeff w, coeff left, coeff cosine, coeff steepest, coeff keeps, coeff faded)
+                         coeff w, coeff left, coeff tilt, coeff keeps, coeff faded)
 {
     const coeff wide = BEAM_NUMBER(entry, WIDEST), before = BEAM_NUMBER(entry, DAMAGE), y_now = y > 0 ? y : 0;
     coeff damage = before;
@@ -208,8 +209,7 @@ ROUTINE void beam_follow(SCATTER(coeff) crack, SCATTER(int) open, brc_size entry
         damage = now > before ? now : before;
         if (!(left > 0)) damage = REAL(1), open[entry] = BEAM_ENDED, open[other] = BEAM_ENDED;
         BEAM_NUMBER(entry, WIDEST) = w, BEAM_NUMBER(other, WIDEST) = w;
-        BEAM_NUMBER(entry, TILT) = cosine > steepest ? cosine : steepest,
-                           BEAM_NUMBER(other, TILT) = BEAM_NUMBER(entry, TILT);
+        BEAM_NUMBER(entry, TILT) = tilt, BEAM_NUMBER(other, TILT) = tilt;
     }
     const coeff booked = REAL(0.5) * (damage - before) * (y_now + BEAM_NUMBER(entry, HELD)) + before * faded;
     BEAM_NUMBER(entry, KEEPS) = keeps, BEAM_NUMBER(other, KEEPS) = keeps;
@@ -232,7 +232,8 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, OWN(int) r
             for (int slot = row_start[slice]; slot < last; ++slot) {
                 const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
                 int any = 0;
-                for (int l = 0; l < W; ++l) any |= lead[entry + (brc_size)l] && open[entry + (brc_size)l] == BEAM_OPENS;
+                for (int l = 0; l < W; ++l)
+                    any |= (lead[entry + (brc_size)l] & BEAM_LEADS) && open[entry + (brc_size)l] == BEAM_OPENS;
                 if (!any) continue;
                 const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
                                                   orientation, axial, bend, twist, beam_of, 1);
@@ -244,8 +245,8 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, OWN(int) r
                 const beam_part part = beam_part_of(
                     bond, lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)), own, q_j, lean);
                 const lane y = part.energy, faded = part.energy - before.energy,
-                           k = bond.stiffness.axial * bond.inv_length0, cosine = beam_cosine(bond, lean),
-                           keeps = lean.keeps;
+                           k = bond.stiffness.axial * bond.inv_length0,
+                           cosine = lane_max(beam_cosine(bond), LANE_ZERO + steepest), keeps = lean.keeps;
                 const soft_face face = {lane_block(crack, slot, BEAM_WIDTH, BEAM_START, lane0),
                                         lane_block(crack, slot, BEAM_WIDTH, BEAM_ENERGY, lane0) *
                                             lane_block(crack, slot, BEAM_WIDTH, BEAM_TILT, lane0),
@@ -255,199 +256,13 @@ KERNEL void beam_soft_move(int n_groups, coeff steepest, coeff clear, OWN(int) r
                                             LANE_LESS(LANE_ZERO, face.start)),
                            left = soft_force(face, w);
 #define FOLLOW(l)                                                                                                      \
-    if (lead[entry + 0x##l] && open[entry + 0x##l] == BEAM_OPENS)                                                      \
+    if ((lead[entry + 0x##l] & BEAM_LEADS) && open[entry + 0x##l] == BEAM_OPENS)                                       \
         beam_follow(crack, open, entry + 0x##l, (brc_size)twin[entry + 0x##l], LANE_ITEM(y, l), LANE_ITEM(k, l),       \
-                    LANE_ITEM(w, l), LANE_ITEM(left, l), LANE_ITEM(cosine, l), steepest, LANE_ITEM(keeps, l),          \
-                    LANE_ITEM(faded, l));
+                    LANE_ITEM(w, l), LANE_ITEM(left, l),                                                               \
+                    lead[entry + 0x##l] & BEAM_JOINED ? BEAM_NUMBER(entry + 0x##l, TILT) : LANE_ITEM(cosine, l),       \
+                    LANE_ITEM(keeps, l), LANE_ITEM(faded, l));
                 LANE_EACH(FOLLOW)
 #undef FOLLOW
-            }
-        }
-    }
-}
-
-/* A beam opens where its pull (beam_pull) is above its capacity, and starts to fall there, or at what it carries where
- * that is more. One that its element chose (mode; 0: none) is left to break at once where it holds as much as its
- * opening would take, and where the element fails by compression. */
-ROUTINE int beam_opens(UPDATE(coeff) crack, brc_size entry, coeff y, coeff k, coeff pull, coeff cosine, coeff steepest,
-                       int mode)
-{
-    const coeff tilt = cosine > steepest ? cosine : steepest, energy = BEAM_NUMBER(entry, ENERGY) * tilt,
-                capacity = BEAM_NUMBER(entry, CAPACITY);
-    const coeff carried = SQRT(REAL(2) * k * (y > 0 ? y : 0)), start = carried > capacity ? carried : capacity;
-    if (!(energy > 0) || !(start > 0)) return 0;
-    if (mode ? mode == FAILURE_COMPRESSION || !(REAL(2) * k * energy > start * start)
-             : !(pull > capacity && capacity > 0))
-        return 0;
-    BEAM_NUMBER(entry, START) = start;
-    BEAM_NUMBER(entry, TILT) = tilt;
-    BEAM_NUMBER(entry, SPENT) = 0, BEAM_NUMBER(entry, BOOKED) = 0; /* PLANE */
-    BEAM_NUMBER(entry, HELD) = y > 0 ? y : 0;
-    return 1;
-}
-
-/* Of an axis in the present body what it was in the undeformed one: a - 2 w v x a + 2 v x (v x a). */
-LAW soft_vector beam_back(OWN(state) orientation, int e, failure_axis a)
-{
-    GLOBAL const state *turn = orientation + (brc_size)e * 4;
-    const coeff w = (coeff)turn[0], x = (coeff)turn[1], y = (coeff)turn[2], z = (coeff)turn[3];
-    const soft_vector once = {y * a.z - z * a.y, z * a.x - x * a.z, x * a.y - y * a.x};
-    const soft_vector twice = {y * once.z - z * once.y, z * once.x - x * once.z, x * once.y - y * once.x};
-    return soft_add(soft_add((soft_vector){a.x, a.y, a.z}, REAL(-2) * w, once), REAL(2), twice);
-}
-
-/* An interface's crack slides where the largest pull stands further from its normal: cos 30 degrees. */
-#define BEAM_ASKEW REAL(0.8660254037844386)
-
-/* How a crack across the largest principal value of the mean stress of element e (of_e), j (of_j) or both lies to the
- * beam between them, the others along it; or one along the interface that the beam crosses. Returns what the body
- * stretches across the pushes along the crack, nu / E of them [-]. */
-ROUTINE coeff beam_lay(UPDATE(coeff) crack, brc_size entry, int e, int j, int slot, int of_e, int of_j, int level,
-                       GATHER(int) row_start, GATHER(int) neighbour, OWN(coeff) branch, OWN(coeff) inv_length,
-                       OWN(state) orientation, GATHER(coeff) record)
-{
-    const failure_stress own = fracture_mean_of(e, level, row_start, neighbour, record),
-                         theirs = fracture_mean_of(j, level, row_start, neighbour, record);
-    const coeff part = of_e && of_j ? REAL(0.5) : REAL(1), p = of_e ? part : 0, q = of_j ? part : 0;
-    const failure_stress mean = {p * own.xx + q * theirs.xx, p * own.yy + q * theirs.yy, p * own.zz + q * theirs.zz,
-                                 p * own.yz + q * theirs.yz, p * own.xz + q * theirs.xz, p * own.xy + q * theirs.xy};
-    const failure_principal principal = failure_principal_of(mean);
-    const failure_axis first = principal.first_axis, third = principal.third_axis;
-    const coeff second_push = principal.second < 0 ? -principal.second : 0,
-                third_push = principal.third < 0 ? -principal.third : 0;
-    const soft_vector pulled = beam_back(orientation, e, first), pressed = beam_back(orientation, e, third),
-                      plane = {BEAM_NUMBER(entry, PLANE), BEAM_COMPONENT(entry, BEAM_PLANE + 1),
-                               BEAM_COMPONENT(entry, BEAM_PLANE + 2)};
-    const coeff straight = soft_dot(pulled, plane);
-    const int slides = soft_dot(plane, plane) > 0 && straight * straight < BEAM_ASKEW * BEAM_ASKEW;
-    const soft_vector axis = slides ? plane : pulled;
-    GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
-    const soft_vector beam = soft_scale(inv_length[entry], (soft_vector){r[0], r[C], r[2 * C]});
-    const coeff cosine = soft_dot(axis, beam), c = cosine < 0 ? -cosine : cosine;
-    soft_vector side = soft_add(soft_scale(cosine < 0 ? REAL(-1) : REAL(1), axis), -c, beam);
-    const coeff s = SQRT(soft_dot(side, side)), leans = REAL(4) * s * s;
-    side = s > REAL(1e-6) ? side
-                          : soft_add(pressed, -soft_dot(pressed, beam),
-                                     beam); /* along the axis nothing of it is kept: any will do */
-    side = soft_scale(REAL(1) / SQRT(soft_dot(side, side)), side);
-    const soft_vector other = {beam.y * side.z - beam.z * side.y, beam.z * side.x - beam.x * side.z,
-                               beam.x * side.y - beam.y * side.x};
-    const soft_vector along = soft_add(soft_scale(s, beam), -c, side);
-    coeff x = soft_dot(pressed, along), y = soft_dot(pressed, other);
-    const coeff size = SQRT(x * x + y * y), per = (x < 0 ? REAL(-1) : REAL(1)) / (size > REAL(1e-6) ? size : REAL(1));
-    x = size > REAL(1e-6) ? per * x : REAL(1), y = size > REAL(1e-6) ? per * y : 0;
-    BEAM_NUMBER(entry, SIDE) = side.x;
-    BEAM_COMPONENT(entry, BEAM_SIDE + 1) = side.y, BEAM_COMPONENT(entry, BEAM_SIDE + 2) = side.z;
-    BEAM_NUMBER(entry, ALONG) = c < 1 ? c : REAL(1);
-    BEAM_NUMBER(entry, COSINE) = slides ? REAL(-1) : x, BEAM_NUMBER(entry, SINE) = slides ? 0 : y;
-    /* Where nothing presses the axes of neighbouring beams scatter, and sides that only open would lean on each other:
-     * nothing is kept along the crack. */
-    const coeff presses = third_push < principal.first ? third_push / principal.first : REAL(1);
-    BEAM_NUMBER(entry, KEEPS) = slides ? REAL(1) : presses * presses * (leans < 1 ? leans : REAL(1));
-    return slides ? 0 : REAL(2) * BEAM_NUMBER(entry, LATERAL) * (second_push + third_push);
-}
-
-/* Which side of a whole bond looks at it: that with the lower id where its element chose it or has open beams, else the
- * other where that has. */
-LAW int beam_looks(OWN(int) neighbour, OWN(int) lead, OWN(int) open, GATHER(int) touched, int e, brc_size entry,
-                   int dies)
-{
-    if (neighbour[entry] == e) return 0;
-    const int looks = lead[entry] ? dies || touched[e] : !dies && touched[e] && !touched[neighbour[entry]];
-    return looks && open[entry] == BEAM_WHOLE; /* in this order: the side that looks writes both */
-}
-
-/* After the elements chose: chosen beams open, as far as they can; and whole beams of elements with open ones, at their
- * capacity: what bridges a crack stands between elements whose mean stress no longer sees it. */
-KERNEL void beam_soft_begin(int n_groups, int step, int level, coeff steepest, GATHER(int) row_start,
-                            GATHER(int) neighbour, OWN(int) twin, OWN(int) lead, OWN(coeff) branch,
-                            OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
-                            coeff bend, coeff twist, GATHER(coeff) beam_of, OWN(int) mark, GATHER(int) choice,
-                            GATHER(coeff) measure, GATHER(coeff) record, GATHER(int) touched, OWN(int) active,
-                            FLAG(int) raised, SCATTER(int) open, SCATTER(coeff) crack, SCATTER(coeff) factor)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W, last = row_start[slice + 1];
-        if (mark[group] == step || active[group]) {
-            const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
-            for (int slot = row_start[slice]; slot < last; ++slot) {
-                const brc_size entry = (brc_size)slot * C + (brc_size)lane0;
-                int any = 0;
-                for (int l = 0; l < W; ++l)
-                    any |= beam_looks(neighbour, lead, open, touched, first + l, entry + (brc_size)l,
-                                      fracture_dies(neighbour, choice, first + l, entry + (brc_size)l));
-                if (!any) continue;
-                const cbm_bond bond = cbm_bond_at(slot, lane0, own, neighbour, branch, inv_length, displacement,
-                                                  orientation, axial, bend, twist, beam_of, 1);
-                const lane k = bond.stiffness.axial * bond.inv_length0,
-                           whole = cbm_beam_energy(bond.shape, bond.inv_length0, bond.stiffness, 1);
-                coeff lateral[W] = {0};
-#define LAY(l)                                                                                                         \
-    {                                                                                                                  \
-        const brc_size at = entry + 0x##l;                                                                             \
-        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at),                \
-                  own_choice = choice[e] >= 0 && choice[e] / 4 == j;                                                   \
-        const coeff capacity = BEAM_NUMBER(at, CAPACITY);                                                              \
-        if (beam_looks(neighbour, lead, open, touched, e, at, dies) &&                                                 \
-            (dies || REAL(2) * LANE_ITEM(k, l) * LANE_ITEM(whole, l) > capacity * capacity))                           \
-            lateral[0x##l] = beam_lay(crack, at, e, j, slot, !dies || own_choice, !dies || !own_choice, level,         \
-                                      row_start, neighbour, branch, inv_length, orientation, record);                  \
-    }
-                LANE_EACH(LAY)
-#undef LAY
-                const lane_quat q_j = lane_gather4(orientation, int_block(neighbour, slot, lane0));
-                const beam_lean lean = beam_lean_at(crack, slot, lane0);
-                const lane_vec3 axis0 = lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0));
-                const beam_part part = beam_part_of(bond, axis0, own, q_j, lean);
-#define LATERAL(l) lateral[0x##l]
-                const lane stretch = LANE_MAKE(lane, LATERAL);
-#undef LATERAL
-                const lane y = part.energy, cosine = beam_cosine(bond, lean),
-                           across = beam_pull(bond.shape, bond.inv_length0, bond.stiffness, axis0, own.orientation, q_j,
-                                              lean, stretch);
-                const lane pull = across + beam_slides(lean) * (LANE_SQRT(REAL(2) * k * soft_above(y, 0)) - across);
-#define BEGIN(l)                                                                                                       \
-    {                                                                                                                  \
-        const brc_size at = entry + 0x##l, to = (brc_size)twin[at];                                                    \
-        const int e = first + 0x##l, j = neighbour[at], dies = fracture_dies(neighbour, choice, e, at);                \
-        if (beam_looks(neighbour, lead, open, touched, e, at, dies)) {                                                 \
-            const int by = choice[e] >= 0 && choice[e] / 4 == j ? e : j, mode = dies ? choice[by] % 4 : 0;             \
-            if (beam_opens(crack, at, LANE_ITEM(y, l), LANE_ITEM(k, l), LANE_ITEM(pull, l), LANE_ITEM(cosine, l),      \
-                           steepest, mode)) {                                                                          \
-                open[at] = BEAM_OPENS, open[to] = BEAM_OPENS;                                                          \
-                factor[at] = BEAM_NEVER, factor[to] = BEAM_NEVER;                                                      \
-                BEAM_NUMBER(at, ONSET) = dies ? measure[by] : BEAM_NUMBER(at, START) * BEAM_NUMBER(at, PER_AREA);      \
-                BEAM_NUMBER(at, MODE) = (coeff)(dies ? mode : FAILURE_TENSION);                                        \
-                for (int what = BEAM_START; what < BEAM_WIDTH; ++what) { /* beam_lean */                               \
-                    const coeff sign =                                                                                 \
-                        (what >= BEAM_SIDE && what < BEAM_ALONG) || what == BEAM_SINE ? REAL(-1) : REAL(1);            \
-                    BEAM_COMPONENT(to, (brc_size)what) = sign * BEAM_COMPONENT(at, (brc_size)what);                    \
-                }                                                                                                      \
-                STORE_SAME(raised + group, 1);                                                                         \
-                STORE_SAME(raised + j / W, 1);                                                                         \
-            }                                                                                                          \
-        }                                                                                                              \
-    }
-                LANE_EACH(BEGIN)
-#undef BEGIN
-            }
-        }
-    }
-}
-
-/* Groups and elements with beams that opened are active and touched; choices of beams that opened are no longer
- * choices. */
-KERNEL void beam_soft_keep(int n_groups, int step, OWN(int) row_start, OWN(int) neighbour, OWN(int) mark,
-                           OWN(int) raised, UPDATE(int) active, OWN(int) open, UPDATE(int) choice, PUT(int) touched)
-{
-    FOR_EACH_ITEM(group, n_groups) {
-        if (raised[group]) active[group] = 1;
-        for (int e = group * W; (mark[group] == step || active[group]) && e < (group + 1) * W; ++e) {
-            const int chosen = choice[e];
-            for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
-                const brc_size entry = (brc_size)slot * C + (brc_size)(e % C);
-                if (open[entry] != BEAM_WHOLE) touched[e] = 1;
-                if (open[entry] == BEAM_OPENS && chosen >= 0 && neighbour[entry] == chosen / 4) choice[e] = -1;
             }
         }
     }
@@ -482,4 +297,3 @@ KERNEL void beam_soft_end(int n_groups, int level, int step, OWN(int) row_start,
         }
     }
 }
-#undef BEAM_NUMBER

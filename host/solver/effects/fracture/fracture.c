@@ -98,6 +98,7 @@ BRC_WANTED(breaks, w->scene->has_fracture)
 /* By a stress of elements: beams always, cells where the criterion asks for it. */
 BRC_WANTED(breaks_by_element, breaks(w) && (brc_wants_spheres(w) || w->by_element))
 BRC_WANTED(weighted, w->weighted || (w->softens && brc_wants_spheres(w)))
+BRC_WANTED(joined, w->scene->n_interfaces > 0 && brc_wants_spheres(w))
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
 static const brc_field_row break_rows[] = {
@@ -131,6 +132,7 @@ static const brc_field_row criterion_rows[] = {
     BRC_FIELD(mark, brc_each_group, 1, INT, NULL, "groups that lose bonds", "-"),
     BRC_FIELD(factor, brc_each_entry, 1, COEFF, weighted, "factors of bonds", "-"),
     BRC_FIELD(weakest, brc_each_row, 1, COEFF, weighted, "factors of bonds", "-"),
+    BRC_FIELD(plane, brc_each_entry, 3, COEFF, joined, "normals of interfaces", "-"),
 };
 BRC_FIELD_TABLE(brc_criterion_fields, "criteria of elements", BRC_LIFE_RUN, breaks_by_element, criterion_rows);
 
@@ -146,6 +148,7 @@ brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer
         {"inv_shear", BRC_VALUE_REAL, AT(scale[2])},   {"slope", BRC_VALUE_REAL, AT(slope)},
         {"friction", BRC_VALUE_REAL, AT(friction)},    {"drucker_prager", BRC_VALUE_BOOL, AT(drucker_prager)},
         {"weighted", BRC_VALUE_BOOL, AT(weighted)},    {"screened", BRC_VALUE_BOOL, AT(screened)},
+        {"joined", BRC_VALUE_BOOL, AT(joined)},        {"turned", BRC_VALUE_BUFFER, AT(turned)},
         {"branch", BRC_VALUE_BUFFER, AT(branch)}};
     return (brc_scope){.owner = "criterion",
                        .base = s->fracture,

@@ -1,6 +1,7 @@
 /* What lets fracture_check pass by elements far from failure (fracture.cl): limits in common, volumes and
  * marks; and the factors of bonds that scatter or lie in an interface. */
 #include "fracture_internal.h"
+#include "interfaces.h"
 #include "strengths.h"
 #include "../../../device/shares.h"
 #include <math.h>
@@ -75,8 +76,10 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
     return brc_upload_coeff(s, f->weight, weight, n);
 }
 
-/* Factors by entries, and the smallest of every row in *weakest [n_rows], the caller's. */
-static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond, double **weakest)
+/* Factors by entries, and the smallest of every row in *weakest [n_rows], the caller's. opens: beams of an interface
+ * with a fracture energy open one by one, so that their element's limit is the interface's strength itself, where that
+ * of solids, which their weakest place decides, is above it (models/cbm/breaks.c). */
+static brc_status upload_factors(brc_simulation *s, const brc_strengths *strengths, bool opens, double **weakest)
 {
     brc_breaking *f = s->fracture;
     const int64_t n = s->layout->n_rows, entries = s->layout->n_slots * s->layout->slice;
@@ -88,13 +91,36 @@ static brc_status upload_factors(brc_simulation *s, const double *factor_of_bond
         for (int64_t k = (int64_t)s->layout->slot_start[slice] * s->layout->slice;
              k < (int64_t)s->layout->slot_start[slice + 1] * s->layout->slice; ++k) {
             const int64_t h = s->layout->half_edge[k], r = slice * s->layout->slice + k % s->layout->slice;
-            factor[k] = h < 0 ? 1 : factor_of_bond[s->domain->bond[h]];
+            const int32_t bond = h < 0 ? -1 : s->domain->bond[h];
+            const double limit = bond < 0 ? 0 : f->limit[3 * s->layout->element_of_row[r]];
+            factor[k] = bond < 0 ? 1 : strengths->factor[bond];
+            if (opens && limit > 0 && strengths->joint[bond] && strengths->energy[bond] > 0 &&
+                strengths->tension[bond] > 0)
+                factor[k] = strengths->tension[bond] / limit;
             if (h >= 0 && factor[k] < (*weakest)[r]) (*weakest)[r] = factor[k];
         }
     for (int64_t r = 0; r < n; ++r)
         if (!isfinite((*weakest)[r])) (*weakest)[r] = 1; /* no bonds */
     BRC_TRY(brc_upload_coeff(s, f->factor, factor, entries));
     return brc_upload_coeff(s, f->weakest, *weakest, n);
+}
+
+static brc_status upload_planes(brc_simulation *s)
+{
+    const brc_layout *layout = s->layout;
+    const brc_domain *d = s->domain;
+    const int64_t n_entries = layout->n_slots * layout->slice;
+    BRC_FREED double *normal = NULL;
+    BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, 1, &normal));
+    BRC_LOCAL(s->context, 3 * n_entries, double, plane, "normals of interfaces");
+    for (int64_t k = 0; k < n_entries; ++k) {
+        const int32_t h = layout->half_edge[k];
+        double *own = plane + (k / layout->slice) * 3 * layout->slice + k % layout->slice;
+        for (int c = 0; normal && h >= 0 && c < 3; ++c)
+            own[c * layout->slice] = normal[3 * (int64_t)d->bond[h] + c];
+    }
+    s->fracture->turned = brc_orientation_of(s);
+    return brc_upload_coeff(s, s->fracture->plane, plane, 3 * n_entries);
 }
 
 brc_status brc_fracture_bound(brc_simulation *s)
@@ -105,7 +131,9 @@ brc_status brc_fracture_bound(brc_simulation *s)
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_breaks.c */
     f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
-    if (f->weighted) BRC_TRY(upload_factors(s, strengths.factor, &weakest));
+    f->joined = f->plane != NULL;
+    if (f->joined) BRC_TRY(upload_planes(s));
+    if (f->weighted) BRC_TRY(upload_factors(s, &strengths, softens, &weakest));
     if (softens) BRC_TRY(s->model->cohesion->create(s, &strengths));
     return upload_bounds(s, weakest);
 }

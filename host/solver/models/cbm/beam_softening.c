@@ -2,25 +2,15 @@
 #include "cbm_internal.h"
 #include "../../effects/fracture/bond_area.h"
 #include "../../effects/fracture/crack_range.h"
-#include "../../effects/fracture/interfaces.h"
 #include <math.h>
 
 /* E G_c / sigma_f^2 below this many diameters: the crack is not resolved. */
 static const double least_diameters = 4;
 
 /* Components of `crack` and states of `open` (beam_softening.cl). */
-enum {
-    ENERGY = 2,
-    EXPONENTIAL = 3,
-    SPENT = 6,
-    PLANE = 6,
-    TILT = 10,
-    CAPACITY = 11,
-    PER_AREA = 12,
-    LATERAL = 20,
-    WIDTH = 21
-};
+enum { ENERGY = 2, EXPONENTIAL = 3, SPENT = 6, TILT = 10, CAPACITY = 11, PER_AREA = 12, LATERAL = 20, WIDTH = 21 };
 enum { WHOLE = 0, BROKEN = 3 };
+enum { LEADS = 1, JOINED = 2 };
 
 struct brc_beam_softening {
     brc_pass *force, *energy, *virial, *move, *begin, *keep, *end;
@@ -102,6 +92,28 @@ static double lateral_of(const brc_simulation *s, int64_t h)
     return fmax(0, fmin(i->poisson / i->young, j->poisson / j->young));
 }
 
+/* Groups and elements with beams that opened follow from the entries; groups with beams of interfaces are active. */
+static brc_status find_touched(brc_simulation *s, const beam_softening *f)
+{
+    const int64_t slice = s->layout->slice, n_rows = s->layout->n_rows, n_entries = s->layout->n_slots * slice,
+                  width = n_rows / s->n_groups;
+    BRC_LOCAL(s->context, n_entries, int32_t, open, "open beams");
+    BRC_LOCAL(s->context, n_entries, int32_t, lead, "open beams");
+    BRC_LOCAL(s->context, s->n_groups, int32_t, active, "open beams");
+    BRC_LOCAL(s->context, n_rows, int32_t, touched, "open beams");
+    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
+    BRC_TRY(brc_buffer_read(f->lead, 0, lead, 4 * n_entries));
+    for (int32_t block = 0; block < s->layout->n_slices; ++block)
+        for (int64_t k = (int64_t)s->layout->slot_start[block] * slice;
+             k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k) {
+            const int64_t row = block * slice + k % slice;
+            if (open[k] != WHOLE) touched[row] = 1;
+            if (open[k] != WHOLE || lead[k] & JOINED) active[row / width] = 1;
+        }
+    BRC_TRY(brc_buffer_write(f->touched, 0, touched, 4 * n_rows));
+    return brc_buffer_write(f->active, 0, active, 4 * (int64_t)s->n_groups);
+}
+
 static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_strengths *strengths)
 {
     const brc_layout *layout = s->layout;
@@ -113,8 +125,6 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
     BRC_LOCAL(s->context, d->n_bonds, double, area, "areas of beams");
     BRC_TRY(brc_bond_areas_closed(s->context, d, area));
     BRC_TRY(brc_layout_twins(s->context, layout, d, twin));
-    BRC_FREED double *normal = NULL;
-    BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, 1, &normal));
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         if (h < 0) continue;
@@ -127,14 +137,13 @@ static brc_status upload_bonds(brc_simulation *s, beam_softening *f, const brc_s
         own[PER_AREA * layout->slice] = 1 / area[d->bond[h]];
         own[LATERAL * layout->slice] = lateral_of(s, h);
         own[EXPONENTIAL * layout->slice] = strengths->exponential[d->bond[h]];
-        for (int c = 0; normal && c < 3; ++c)
-            own[(PLANE + c) * layout->slice] =
-                (h == d->bond_half_edge[d->bond[h]] ? 1 : -1) * normal[3 * (int64_t)d->bond[h] + c];
-        lead[k] = d->neighbour[d->twin[h]] < d->neighbour[h];
+        lead[k] = (d->neighbour[d->twin[h]] < d->neighbour[h] ? LEADS : 0) +
+                  (strengths->joint[d->bond[h]] && strengths->energy[d->bond[h]] > 0 ? JOINED : 0);
     }
     BRC_TRY(brc_upload_coeff(s, f->crack, crack, WIDTH * n_entries));
     BRC_TRY(brc_upload_int(f->lead, lead, n_entries));
-    return brc_upload_int(f->twin, twin, n_entries);
+    BRC_TRY(brc_upload_int(f->twin, twin, n_entries));
+    return find_touched(s, f);
 }
 
 brc_status brc_beam_softening_create(brc_simulation *s, const brc_strengths *strengths)
@@ -209,23 +218,6 @@ void brc_beam_softening_cracks(const brc_simulation *s, brc_buffer **open, brc_b
 }
 
 /* ---- what stays ---- */
-
-/* Groups and elements with beams that opened follow from the entries. */
-static brc_status find_touched(brc_simulation *s, const beam_softening *f)
-{
-    const int64_t slice = s->layout->slice, n_rows = s->layout->n_rows, n_entries = s->layout->n_slots * slice,
-                  width = n_rows / s->n_groups;
-    BRC_LOCAL(s->context, n_entries, int32_t, open, "open beams");
-    BRC_LOCAL(s->context, s->n_groups, int32_t, active, "open beams");
-    BRC_LOCAL(s->context, n_rows, int32_t, touched, "open beams");
-    BRC_TRY(brc_buffer_read(f->open, 0, open, 4 * n_entries));
-    for (int32_t block = 0; block < s->layout->n_slices; ++block)
-        for (int64_t k = (int64_t)s->layout->slot_start[block] * slice;
-             k < (int64_t)s->layout->slot_start[block + 1] * slice; ++k)
-            if (open[k] != WHOLE) touched[block * slice + k % slice] = active[(block * slice + k % slice) / width] = 1;
-    BRC_TRY(brc_buffer_write(f->touched, 0, touched, 4 * n_rows));
-    return brc_buffer_write(f->active, 0, active, 4 * (int64_t)s->n_groups);
-}
 
 brc_status brc_beam_softening_store_state(brc_simulation *s, brc_state_store *store)
 {
