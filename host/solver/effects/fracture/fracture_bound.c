@@ -76,6 +76,12 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
     return brc_upload_coeff(s, f->weight, weight, n);
 }
 
+/* Beams of an interface that open one by one (models/cbm/beam_softening.c). */
+static bool opens_alone(const brc_strengths *strengths, int64_t bond)
+{
+    return strengths->joint[bond] && strengths->energy[bond] > 0;
+}
+
 /* Factors by entries, and the smallest of every row in *weakest [n_rows], the caller's. opens: beams of an interface
  * with a fracture energy open one by one, so that their element's limit is the interface's strength itself, where that
  * of solids, which their weakest place decides, is above it (models/cbm/breaks.c). */
@@ -94,8 +100,7 @@ static brc_status upload_factors(brc_simulation *s, const brc_strengths *strengt
             const int32_t bond = h < 0 ? -1 : s->domain->bond[h];
             const double limit = bond < 0 ? 0 : f->limit[3 * s->layout->element_of_row[r]];
             factor[k] = bond < 0 ? 1 : strengths->factor[bond];
-            if (opens && limit > 0 && strengths->joint[bond] && strengths->energy[bond] > 0 &&
-                strengths->tension[bond] > 0)
+            if (limit > 0 && opens && opens_alone(strengths, bond) && strengths->tension[bond] > 0)
                 factor[k] = strengths->tension[bond] / limit;
             if (h >= 0 && factor[k] < (*weakest)[r]) (*weakest)[r] = factor[k];
         }
@@ -105,7 +110,8 @@ static brc_status upload_factors(brc_simulation *s, const brc_strengths *strengt
     return brc_upload_coeff(s, f->weakest, *weakest, n);
 }
 
-static brc_status upload_planes(brc_simulation *s)
+/* Normals by entries; brittle bonds no weaker than their solids, and bonds in no interface, have none. */
+static brc_status upload_planes(brc_simulation *s, const brc_strengths *strengths, bool opens)
 {
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
@@ -116,7 +122,9 @@ static brc_status upload_planes(brc_simulation *s)
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
         double *own = plane + (k / layout->slice) * 3 * layout->slice + k % layout->slice;
-        for (int c = 0; normal && h >= 0 && c < 3; ++c)
+        const bool lies =
+            h >= 0 && normal && (strengths->factor[d->bond[h]] < 1 || (opens && opens_alone(strengths, d->bond[h])));
+        for (int c = 0; lies && c < 3; ++c)
             own[c * layout->slice] = normal[3 * (int64_t)d->bond[h] + c];
     }
     s->fracture->turned = brc_orientation_of(s);
@@ -132,7 +140,7 @@ brc_status brc_fracture_bound(brc_simulation *s)
     const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_breaks.c */
     f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
     f->joined = f->plane != NULL;
-    if (f->joined) BRC_TRY(upload_planes(s));
+    if (f->joined) BRC_TRY(upload_planes(s, &strengths, softens));
     if (f->weighted) BRC_TRY(upload_factors(s, &strengths, softens, &weakest));
     if (softens) BRC_TRY(s->model->cohesion->create(s, &strengths));
     return upload_bounds(s, weakest);
