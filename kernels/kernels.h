@@ -62,10 +62,12 @@
 #include "models/dlsm/softening_screen.cl"
 #include "models/dlsm/softening_interfaces.cl"
 #include "models/dlsm/softening_onset.cl"
+#include "models/dlsm/brittle_interfaces.cl"
 #include "models/dlsm/closed_faces.cl"
 #include "models/cbm/beam_carried.h"
 #include "models/cbm/beam_softening.cl"
 #include "models/cbm/beam_onset.cl"
+#include "models/cbm/beam_alone.cl"
 #include "models/cbm/beam_closure.cl"
 
 /* Passes are compiled twice from one text: over all elements ... */

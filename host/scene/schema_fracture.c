@@ -148,8 +148,8 @@ static const brc_entry FRACTURE[] = {
     {"friction", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_fracture, side_friction), .given = "auto",
      .word = "auto", .word_value = -1, .sample = "0.5",
      .meaning = "Coulomb friction of the sides of broken faces (model dlsm: bonds that break at once, and faces that "
-                "slide by mohr-coulomb with a fracture energy) in a scene without `contact`, which has a friction of "
-                "its own; auto: 0.3"},
+                "slide by mohr-coulomb with a fracture energy; cbm: interfaces that break at once) in a scene without "
+                "`contact`, which has a friction of its own; auto: 0.3"},
     {"seed", BRC_TYPE_INTEGER, WITHIN(0, 9e15), FIELD(brc_fracture, seed), .given = "1",
      .meaning = "of the strengths that scatter; the draw of a bond depends on its elements' ids only"},
 };

@@ -50,6 +50,8 @@ typedef struct brc_model_breaking {
     bool (*places)(const struct brc_simulation *s, const struct brc_rings *rings);
     /* Criteria of bonds: those above `share` of their limit are marked, `found` of elements or groups counts them. */
     brc_status (*mark)(struct brc_simulation *s, double share);
+    /* Criteria of elements: more bonds than those that elements chose are marked, `found` counts them; NULL: none. */
+    brc_status (*mark_beside)(struct brc_simulation *s);
     /* The largest ratio of a bond's stress to its limit. */
     brc_status (*ratio)(struct brc_simulation *s, double *out);
     /* Gradients of ring 0, before surfaces are looked for; NULL: surfaces move with rotations. */

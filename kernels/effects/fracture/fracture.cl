@@ -142,6 +142,8 @@ LAW failure_axis fracture_plane_of(OWN(coeff) plane, int slot, int e)
 }
 LAW int fracture_lies(failure_axis n) { return n.x * n.x + n.y * n.y + n.z * n.z > 0; }
 
+/* In joined: normals of interfaces turn with elements, which have orientations. */
+#define FRACTURE_TURNS 2
 /* cos 60 degrees: an interface fails by a direction of failure that stands no farther from its normal. */
 #define FRACTURE_ACROSS REAL(0.5)
 
@@ -166,7 +168,8 @@ LAW fracture_pick fracture_pick_of(int e, failure_state failed, int weighted, in
         const failure_axis n = joined ? fracture_plane_of(plane, slot, e) : (failure_axis){0, 0, 0};
         nearest = failure_larger(nearest, aligned);
         if (fracture_lies(n)) {
-            if (failure_alignment(failed, fracture_turn(turned, e, 0, n), REAL(1)) < FRACTURE_ACROSS) continue;
+            const failure_axis now = joined & FRACTURE_TURNS ? fracture_turn(turned, e, 0, n) : n;
+            if (failure_alignment(failed, now, REAL(1)) < FRACTURE_ACROSS) continue;
             if (!(inverse > weak || (inverse == weak && aligned > weak_aligned))) continue;
             weak = inverse, weak_aligned = aligned, across = j;
             continue;

@@ -97,17 +97,47 @@ LAW beam_carry beam_pressed(cbm_shape shape, lane inv_length0, cbm_stiffness sti
                         REAL(0.5) * (k * y * y)};
 }
 
+/* k_m that counts, and k above it [N/m]. */
+typedef struct {
+    lane across, more;
+} beam_springs;
+LAW beam_springs beam_springs_of(lane inv_length0, cbm_stiffness stiffness, lane keeps)
+{
+    const lane k_m = keeps * REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0;
+    return (beam_springs){k_m, stiffness.axial * inv_length0 - k_m};
+}
+
+/* o by its parts along a, p and q [m]. */
+LAW lane_vec3 beam_parts(beam_axes x, cbm_shape shape)
+{
+    return (lane_vec3){beam_along(x.c.x, x.m1.x, x.m2.x, cbm_elongation(shape), x.o1, x.o2),
+                       beam_along(x.c.y, x.m1.y, x.m2.y, cbm_elongation(shape), x.o1, x.o2),
+                       beam_along(x.c.z, x.m1.z, x.m2.z, cbm_elongation(shape), x.o1, x.o2)};
+}
+
+/* The end of a beam under a force of `along` on its axis now and f.x, f.y, f.z along a, p, q across it [N]. */
+LAW cbm_end beam_end(cbm_shape shape, lane inv_length0, lane_vec3 branch, lane_quat q_i, lane_quat q_j, beam_axes x,
+                     lane along, lane_vec3 f)
+{
+    const lane f1 = f.x * x.m1.x + f.y * x.m1.y + f.z * x.m1.z, f2 = f.x * x.m2.x + f.y * x.m2.y + f.z * x.m2.z;
+    const lane_vec3 across =
+        lane_vec3_add(lane_vec3_scale(REAL(0.5) * f1, x.first), lane_vec3_scale(REAL(0.5) * f2, x.second));
+    const lane_vec3 own = lane_vec3_add(across, quat_rotate_minus_identity(q_i, across, 1)),
+                    theirs = lane_vec3_add(across, quat_rotate_minus_identity(q_j, across, 1));
+    return (cbm_end){lane_vec3_add(lane_vec3_scale(along * inv_length0, cbm_axis(shape)), lane_vec3_add(own, theirs)),
+                     lane_vec3_cross(branch, own)};
+}
+
 /* branch: x_j - x_i now [m], axis0: e; q_i, q_j: orientations of the elements. */
 LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 branch,
                             lane_vec3 axis0, lane_quat q_i, lane_quat q_j, beam_lean lean)
 {
     const beam_axes x = beam_axes_of(shape, axis0, q_i, q_j, lean);
-    const lane zero = LANE_ZERO, slides = beam_slides(lean), k = stiffness.axial * inv_length0,
-               k_m = lean.keeps * REAL(6) * stiffness.bend * inv_length0 * inv_length0 * inv_length0, more = k - k_m;
+    const beam_springs spring = beam_springs_of(inv_length0, stiffness, lean.keeps);
+    const lane zero = LANE_ZERO, slides = beam_slides(lean), k = stiffness.axial * inv_length0, k_m = spring.across,
+               more = spring.more;
     const lane per = more / lane_max(k_m, REAL(1e-15) * k + REAL(1e-30));
-    const lane_vec3 o = {beam_along(x.c.x, x.m1.x, x.m2.x, cbm_elongation(shape), x.o1, x.o2),
-                         beam_along(x.c.y, x.m1.y, x.m2.y, cbm_elongation(shape), x.o1, x.o2),
-                         beam_along(x.c.z, x.m1.z, x.m2.z, cbm_elongation(shape), x.o1, x.o2)};
+    const lane_vec3 o = beam_parts(x, shape);
     beam_axis a, p, q;
     lane y = zero;
     for (int turn = 0; turn < 5; ++turn) {
@@ -117,16 +147,51 @@ LAW beam_carry beam_carried(cbm_shape shape, lane inv_length0, cbm_stiffness sti
         if (turn < 4) y = lane_min((a.sum + p.sum + q.sum) / (REAL(1) + (a.free + p.free + q.free) * per), zero);
     }
     const lane energy = more * y * y + k_m * (a.rest * a.rest + p.rest * p.rest + q.rest * q.rest);
-    const lane f1 = a.force * x.m1.x + p.force * x.m1.y + q.force * x.m1.z,
-               f2 = a.force * x.m2.x + p.force * x.m2.y + q.force * x.m2.z;
-    const lane_vec3 across =
-        lane_vec3_add(lane_vec3_scale(REAL(0.5) * f1, x.first), lane_vec3_scale(REAL(0.5) * f2, x.second));
-    const lane_vec3 own = lane_vec3_add(across, quat_rotate_minus_identity(q_i, across, 1)),
-                    theirs = lane_vec3_add(across, quat_rotate_minus_identity(q_j, across, 1));
     return (beam_carry){
-        {lane_vec3_add(lane_vec3_scale(k * y * inv_length0, cbm_axis(shape)), lane_vec3_add(own, theirs)),
-         lane_vec3_cross(branch, own)},
+        beam_end(shape, inv_length0, branch, q_i, q_j, x, k * y, (lane_vec3){a.force, p.force, q.force}),
         REAL(0.5) * energy};
+}
+
+/* Sides of an interface that slide with friction. p, q: where they stick along its axes; held_p, held_q: how far they
+ * stood from there after the last step [m]. */
+typedef struct {
+    lane p, q, held_p, held_q;
+} beam_slip;
+/* After a step: friction lets them hold no more than `most` times the push on them. spent: what that took, the mean of
+ * the forces at both ends of the step times the slide, as velocity Verlet's own work [J]. */
+typedef struct {
+    beam_slip slip;
+    lane spent;
+} beam_slide;
+LAW beam_slide beam_slipped(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 axis0, lane_quat q_i,
+                            lane_quat q_j, beam_lean lean, beam_slip slip, coeff most)
+{
+    const beam_axes x = beam_axes_of(shape, axis0, q_i, q_j, lean);
+    const beam_springs spring = beam_springs_of(inv_length0, stiffness, lean.keeps);
+    const lane_vec3 o = beam_parts(x, shape);
+    /* The push -F_a: springs in series, that across and, as the axis is pushed, the rest of k on it. */
+    const lane c = lean.along, per = spring.more / lane_max(spring.across, LANE_ZERO + REAL(1e-30)),
+               stiff = spring.across + spring.more * c * c / (REAL(1) + (REAL(1) - c * c) * per),
+               push = lane_max(-stiff * o.x, LANE_ZERO);
+    const lane p = o.y - slip.p, q = o.z - slip.q, size = LANE_SQRT(p * p + q * q),
+               share =
+                   lane_min(most * push / lane_max(spring.across * size, LANE_ZERO + REAL(1e-30)), LANE_ZERO + REAL(1)),
+               held_p = share * p, held_q = share * q;
+    return (beam_slide){{o.y - held_p, o.z - held_q, held_p, held_q},
+                        REAL(0.5) * spring.across *
+                            ((held_p + slip.held_p) * (p - held_p) + (held_q + slip.held_q) * (q - held_q))};
+}
+/* What that friction holds: k_m times how far they stand from there, as far as `rubs`, 1 or 0. */
+LAW beam_carry beam_rubbed(cbm_shape shape, lane inv_length0, cbm_stiffness stiffness, lane_vec3 branch,
+                           lane_vec3 axis0, lane_quat q_i, lane_quat q_j, beam_lean lean, beam_slip slip, lane rubs)
+{
+    const beam_axes x = beam_axes_of(shape, axis0, q_i, q_j, lean);
+    const lane k_m = rubs * beam_springs_of(inv_length0, stiffness, lean.keeps).across;
+    const lane_vec3 o = beam_parts(x, shape);
+    const lane p = o.y - slip.p, q = o.z - slip.q;
+    return (beam_carry){beam_end(shape, inv_length0, branch, q_i, q_j, x, k_m * (x.c.y * p + x.c.z * q),
+                                 (lane_vec3){LANE_ZERO, k_m * p, k_m * q}),
+                        REAL(0.5) * k_m * (p * p + q * q)};
 }
 
 /* The pull of a whole beam along the axis of a crack, as that of a beam along the axis with as much energy to release

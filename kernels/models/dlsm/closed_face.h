@@ -73,6 +73,18 @@ LAW closed_face closed_face_of(vec3 branch, vec3 offset, vec3 jump, mat3 own, ma
     return f;
 }
 
+/* A face of an interface, of the normal n out of its own element, 0: in none: its sides press and slide as those of
+ * the plane do, or else the steps of a rough plane would hold each other. */
+LAW closed_face closed_face_in(closed_face f, vec3 n)
+{
+    const vec3 seen = vec3_add(vec3_scale(f.along, f.normal), f.across);
+    if (!(vec3_dot(n, n) > 0)) return f;
+    f.normal = n;
+    f.along = vec3_dot(n, seen);
+    f.across = vec3_sub(seen, vec3_scale(f.along, n));
+    return f;
+}
+
 /* What a face adds to its own element i. */
 typedef struct {
     vec3 push;    /* force [N] */

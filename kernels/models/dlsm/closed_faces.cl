@@ -3,7 +3,8 @@
  *
  * Entries [n_slots][C]: closed: CLOSED_OPEN from the break on, CLOSED_PRESSED while its sides are, CLOSED_CLEAR once
  * they stand clear of each other, for good, and CLOSED_KIND times 1 + how many of its two cells have no bonds; 0: never
- * broke here. spring: kappa [N/m], of the bond that was; overlap: the gap, below 0, that a face had when it broke or
+ * broke here. spring: kappa [N/m], of the bond that was, across
+ * its interface times the square of the cosine to it; overlap: the gap, below 0, that a face had when it broke or
  * one of its cells came off, from which on it counts: nothing is pressed by a break [m]; slide [n_slots][3][C]: where
  * along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
  * Elements [n]: next: the step at which the faces of which it is the lower row are looked at again, the next one while
@@ -11,7 +12,8 @@
  * may come in the next step; presses: 1
  * where some face is pressed, as of the last evaluation; load [n][12]: what these add to B, and their force on it [Pa]
  * [N]; held: what they hold, half of each face [J]; rubbed: lost to friction [J]; probe, near: the last step whose
- * breaks concern the element's faces, or its force. */
+ * breaks concern the element's faces, or its force. joined: some faces lie in interfaces, along: brittle_interfaces.cl.
+ */
 
 #define CLOSED_OPEN 1
 #define CLOSED_PRESSED 2
@@ -58,20 +60,23 @@ LAW vec3 closed_offset(OWN(coeff) offset, GATHER(coeff) modulus, int e, int j, b
 #endif
 }
 LAW closed_face closed_find(GATHER(state) place, OWN(coeff) offset, GATHER(coeff) modulus, GATHER(coeff) inv_shape,
-                            GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) overlap, int e, int j,
-                            brc_size entry)
+                            GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) overlap, int joined,
+                            OWN(coeff) along, int e, int j, brc_size entry)
 {
     closed_face f = closed_face_of(closed_difference(place, e, j), closed_offset(offset, modulus, e, j, entry),
                                    closed_difference(displacement, e, j), mat3_load(gradient, e),
                                    mat3_load(gradient, j), closed_is_free(inv_shape, e), closed_is_free(inv_shape, j));
+    if (joined && !(closed_is_free(inv_shape, e) && closed_is_free(inv_shape, j)))
+        f = closed_face_in(f, closed_row(along, entry));
     f.along -= overlap[entry];
     return f;
 }
 
 /* Before bonds of touched elements break: marked ones that never broke are faces that may close. */
 KERNEL void closed_keep(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) twin, OWN(int) touched,
-                        GATHER(int) mark, OWN(coeff) alive, OWN(coeff) ratio, coeff k_one, coeff one_plus_tau,
-                        GATHER(coeff) modulus, PUT(int) closed, PUT(coeff) spring)
+                        GATHER(int) mark, OWN(coeff) alive, OWN(coeff) area, OWN(coeff) ratio, coeff k_one,
+                        coeff one_plus_tau, GATHER(coeff) modulus, int joined, OWN(coeff) along, PUT(int) closed,
+                        PUT(coeff) spring)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(touched, (brc_size)group * W);
@@ -86,7 +91,9 @@ KERNEL void closed_keep(int n_groups, OWN(int) row_start, OWN(int) neighbour, OW
                 const coeff k = k_one;
 #endif
                 closed[entry] = CLOSED_OPEN;
-                spring[entry] = k * one_plus_tau / ratio[entry];
+                const vec3 n = joined ? closed_row(along, entry) : (vec3){0, 0, 0}, s = closed_row(area, entry);
+                const coeff c = vec3_dot(n, n) > 0 ? vec3_dot(n, s) * vec3_dot(n, s) / vec3_dot(s, s) : REAL(1);
+                spring[entry] = c * k * one_plus_tau / ratio[entry];
             }
         }
     }
@@ -115,8 +122,9 @@ KERNEL void closed_probe(int n_groups, int moment, OWN(int) row_start, GATHER(in
 KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff clear, coeff friction, OWN(int) row_start,
                           GATHER(int) neighbour, OWN(int) twin, GATHER(state) place, OWN(coeff) offset,
                           GATHER(coeff) modulus, GATHER(coeff) inv_shape, GATHER(state) displacement,
-                          GATHER(coeff) gradient, OWN(coeff) spring, OWN(coeff) overlap, SCATTER(int) closed,
-                          SCATTER(coeff) slide, UPDATE(int) next, SCATTER(int) presses, UPDATE(state) rubbed)
+                          GATHER(coeff) gradient, int joined, OWN(coeff) along, OWN(coeff) spring, OWN(coeff) overlap,
+                          SCATTER(int) closed, SCATTER(coeff) slide, UPDATE(int) next, SCATTER(int) presses,
+                          UPDATE(state) rubbed)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int until = moves ? moment : moment + 1; /* of a state that a step has left, the same faces */
@@ -128,8 +136,8 @@ KERNEL void closed_follow(int n_groups, int moment, int all, int moves, coeff cl
                 const brc_size entry = CLOSED_ENTRY;
                 const int j = CLOSED_OTHER(entry);
                 if (!(e < j) || !CLOSED_HOLDS(entry)) continue; /* the lower row writes what the upper would read */
-                const closed_face f =
-                    closed_find(place, offset, modulus, inv_shape, displacement, gradient, overlap, e, j, entry);
+                const closed_face f = closed_find(place, offset, modulus, inv_shape, displacement, gradient, overlap,
+                                                  joined, along, e, j, entry);
                 const int pressed = f.along < 0, was = CLOSED_IS(entry) == CLOSED_PRESSED;
                 const brc_size other = (brc_size)twin[entry];
                 if (moves) {
@@ -180,8 +188,9 @@ LAW vec3 closed_kept(vec3 held, coeff along, coeff friction)
  * new, or of a cell that has come off. */
 LAW int closed_sum(int e, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin, GATHER(state) place,
                    OWN(coeff) offset, GATHER(coeff) modulus, GATHER(coeff) inv_shape, GATHER(state) displacement,
-                   GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed,
-                   UPDATE(coeff) slide, coeff friction, int broke, GATHER(int) touched, coeff *sum, state *energy)
+                   GATHER(coeff) gradient, int joined, OWN(coeff) along, OWN(coeff) spring, UPDATE(coeff) overlap,
+                   UPDATE(int) closed, UPDATE(coeff) slide, coeff friction, int broke, GATHER(int) touched, coeff *sum,
+                   state *energy)
 {
     mat3 q = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     vec3 push = {0, 0, 0};
@@ -191,7 +200,8 @@ LAW int closed_sum(int e, OWN(int) row_start, GATHER(int) neighbour, OWN(int) tw
         const brc_size entry = CLOSED_ENTRY;
         if (!CLOSED_HOLDS(entry)) continue;
         const int j = CLOSED_OTHER(entry);
-        closed_face f = closed_find(place, offset, modulus, inv_shape, displacement, gradient, overlap, e, j, entry);
+        closed_face f =
+            closed_find(place, offset, modulus, inv_shape, displacement, gradient, overlap, joined, along, e, j, entry);
         if (broke && (touched[e] || touched[j])) { /* H of one of them is another: both sides ask anew */
             const int kind = 1 + closed_is_free(inv_shape, e) + closed_is_free(inv_shape, j);
             if (closed[entry] / CLOSED_KIND != kind) {
@@ -231,8 +241,9 @@ LAW int closed_sum(int e, OWN(int) row_start, GATHER(int) neighbour, OWN(int) tw
 /* Loads of the elements that closed_follow found pressed. */
 KERNEL void closed_press(int n_groups, coeff friction, OWN(int) row_start, GATHER(int) neighbour, OWN(int) twin,
                          GATHER(state) place, OWN(coeff) offset, GATHER(coeff) modulus, GATHER(coeff) inv_shape,
-                         GATHER(state) displacement, GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap,
-                         UPDATE(int) closed, UPDATE(coeff) slide, GATHER(int) presses, PUT(coeff) load, PUT(state) held)
+                         GATHER(state) displacement, GATHER(coeff) gradient, int joined, OWN(coeff) along,
+                         OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed, UPDATE(coeff) slide,
+                         GATHER(int) presses, PUT(coeff) load, PUT(state) held)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int some = int_load(presses, (brc_size)group * W);
@@ -240,8 +251,8 @@ KERNEL void closed_press(int n_groups, coeff friction, OWN(int) row_start, GATHE
             if (!presses[e]) continue;
             coeff sum[CLOSED_LOAD];
             state energy;
-            closed_sum(e, row_start, neighbour, twin, place, offset, modulus, inv_shape, displacement, gradient, spring,
-                       overlap, closed, slide, friction, 0, presses, sum, &energy);
+            closed_sum(e, row_start, neighbour, twin, place, offset, modulus, inv_shape, displacement, gradient, joined,
+                       along, spring, overlap, closed, slide, friction, 0, presses, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) load[(brc_size)e * CLOSED_LOAD + (brc_size)c] = sum[c];
             held[e] = energy;
         }
@@ -296,9 +307,9 @@ KERNEL void closed_energy(int n, OWN(int) presses, OWN(state) held, PUT(state) o
 KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) touched, OWN(int) row_start,
                          GATHER(int) neighbour, OWN(int) twin, GATHER(state) place, OWN(coeff) offset,
                          GATHER(coeff) modulus, GATHER(coeff) inv_shape, GATHER(state) displacement,
-                         GATHER(coeff) gradient, OWN(coeff) spring, UPDATE(coeff) overlap, UPDATE(int) closed,
-                         UPDATE(coeff) slide, OWN(int) probe, SCATTER(int) near, PUT(int) next, UPDATE(int) presses,
-                         UPDATE(coeff) load, PUT(state) held, PUT(coeff) delta)
+                         GATHER(coeff) gradient, int joined, OWN(coeff) along, OWN(coeff) spring, UPDATE(coeff) overlap,
+                         UPDATE(int) closed, UPDATE(coeff) slide, OWN(int) probe, SCATTER(int) near, PUT(int) next,
+                         UPDATE(int) presses, UPDATE(coeff) load, PUT(state) held, PUT(coeff) delta)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const lane_int fresh =
@@ -308,8 +319,9 @@ KERNEL void closed_again(int n_groups, int moment, coeff friction, GATHER(int) t
             coeff sum[CLOSED_LOAD];
             state energy;
             const int before = presses[e];
-            const int now = closed_sum(e, row_start, neighbour, twin, place, offset, modulus, inv_shape, displacement,
-                                       gradient, spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
+            const int now =
+                closed_sum(e, row_start, neighbour, twin, place, offset, modulus, inv_shape, displacement, gradient,
+                           joined, along, spring, overlap, closed, slide, friction, 1, touched, sum, &energy);
             for (int c = 0; c < CLOSED_LOAD; ++c) {
                 const brc_size at = (brc_size)e * CLOSED_LOAD + (brc_size)c;
                 delta[at] = sum[c] - (before ? load[at] : 0);

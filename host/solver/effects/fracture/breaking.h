@@ -8,6 +8,8 @@
 
 /* Broken beams may bear, or leave forces behind. */
 bool brc_wants_lost_beams(const brc_wants *wants);
+/* Beams may lie in interfaces. */
+bool brc_wants_joined(const brc_wants *wants);
 /* What bonds that broke keep; what criteria of elements have, their numbers too. */
 brc_scope brc_scope_of_breaks(const brc_simulation *s, const brc_scope *outer);
 brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer);

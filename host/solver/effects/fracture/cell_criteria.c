@@ -32,7 +32,8 @@ brc_status brc_cell_criteria_mark(brc_simulation *s)
     const int32_t rows = s->layout->n_rows;
     BRC_TRY(record(s));
     BRC_TRY(brc_fracture_choose(s, (int32_t)brc_fracture_moment(s)));
-    return BRC_RUN(c->mark_chosen, rows, {"stress", BRC_BUF(f->measure)});
+    BRC_TRY(BRC_RUN(c->mark_chosen, rows, {"stress", BRC_BUF(f->measure)}));
+    return s->model->breaking->mark_beside ? s->model->breaking->mark_beside(s) : BRC_OK;
 }
 
 brc_status brc_cell_criteria_settle(brc_simulation *s)

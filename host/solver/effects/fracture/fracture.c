@@ -98,7 +98,11 @@ BRC_WANTED(breaks, w->scene->has_fracture)
 /* By a stress of elements: beams always, cells where the criterion asks for it. */
 BRC_WANTED(breaks_by_element, breaks(w) && (brc_wants_spheres(w) || w->by_element))
 BRC_WANTED(weighted, w->weighted || (w->softens && brc_wants_spheres(w)))
-BRC_WANTED(joined, w->scene->n_interfaces > 0 && brc_wants_spheres(w))
+bool brc_wants_joined(const brc_wants *w)
+{
+    return w->scene->n_interfaces > 0 && brc_wants_spheres(w);
+}
+BRC_WANTED(joined, brc_wants_joined(w) || (w->scene->n_interfaces > 0 && w->by_element))
 
 #define AT(member) BRC_FIELD_AT(brc_breaking, member)
 static const brc_field_row break_rows[] = {
@@ -148,7 +152,7 @@ brc_scope brc_scope_of_criterion(const brc_simulation *s, const brc_scope *outer
         {"inv_shear", BRC_VALUE_REAL, AT(scale[2])},   {"slope", BRC_VALUE_REAL, AT(slope)},
         {"friction", BRC_VALUE_REAL, AT(friction)},    {"drucker_prager", BRC_VALUE_BOOL, AT(drucker_prager)},
         {"weighted", BRC_VALUE_BOOL, AT(weighted)},    {"screened", BRC_VALUE_BOOL, AT(screened)},
-        {"joined", BRC_VALUE_BOOL, AT(joined)},        {"turned", BRC_VALUE_BUFFER, AT(turned)},
+        {"joined", BRC_VALUE_INT, AT(joined)},         {"turned", BRC_VALUE_BUFFER, AT(turned)},
         {"branch", BRC_VALUE_BUFFER, AT(branch)}};
     return (brc_scope){.owner = "criterion",
                        .base = s->fracture,

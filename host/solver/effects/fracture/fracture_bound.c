@@ -139,7 +139,7 @@ brc_status brc_fracture_bound(brc_simulation *s)
     BRC_TRY(brc_strengths_create(s->context, s->scene, s->domain, s->material_of_element, &strengths));
     const bool softens = s->wants.softens && brc_has_spheres(s); /* cells: cell_breaks.c */
     f->weighted = f->factor != NULL; /* beams that opened are not chosen again, by their factors */
-    f->joined = f->plane != NULL;
+    f->joined = !f->plane ? 0 : s->model->turns ? 3 : 1;
     if (f->joined) BRC_TRY(upload_planes(s, &strengths, softens));
     if (f->weighted) BRC_TRY(upload_factors(s, &strengths, softens, &weakest));
     if (softens) BRC_TRY(s->model->cohesion->create(s, &strengths));

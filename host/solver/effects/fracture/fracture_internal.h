@@ -26,9 +26,9 @@ struct brc_breaking {
     brc_buffer *branch;           /* [n_slots][3][C] of its elements' bonds; borrowed */
     brc_buffer *factor, *weakest; /* only if weighted */
     brc_buffer *plane;            /* [n_slots][3][C] normals of interfaces [-]; only if joined */
-    brc_buffer *turned;           /* [n_rows][4] orientations of the elements; borrowed, only if joined */
+    brc_buffer *turned;           /* [n_rows][4] orientations of the elements; borrowed, only if joined is 3 */
     bool weighted;                /* bonds differ in strength */
-    bool joined;                  /* beams lie in interfaces */
+    int32_t joined;               /* bonds lie in interfaces: 1, whose normals turn with elements: 3 (fracture.cl) */
     bool screened;   /* groups far from failure are passed by: cpu, one rank, level 1, bonds of like strength */
     double scale[3]; /* 1 / smallest limit of tension, compression, shear; 0: none [1/Pa] */
     double *limit;   /* [n_elements][3] host */

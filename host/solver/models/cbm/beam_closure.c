@@ -3,25 +3,30 @@
 #include "../../effects/fracture/ahead.h"
 #include "beam_softening.h"
 
-enum { LEAN = 7, CLOSURE_BITS = 31 }; /* beam_closure.cl */
+enum { LEAN = 7, SLIP = 5, CLOSURE_BITS = 31, LEANS = 1, GRIPS = 2 }; /* beam_closure.cl */
 
 struct brc_beam_closure {
     brc_pass *force, *energy, *virial, *move, *begin;
     brc_buffer *other, *twin, *bears; /* [n_slots][C] */
-    brc_buffer *lean;                 /* [n_slots][LEAN][C], only where beams soften */
+    brc_buffer *lean;                 /* [n_slots][LEAN][C], only where beams soften or lie in interfaces */
+    brc_buffer *slip;                 /* [n_slots][SLIP][C], only in interfaces with friction */
+    brc_buffer *rubbed;               /* [n_rows] energy lost to friction [J], likewise */
     brc_buffer *rubs;                 /* [n_groups] */
-    bool leans;                       /* there is lean */
+    int32_t leans;                    /* LEANS: there is lean; GRIPS: slip too */
 };
 typedef struct brc_beam_closure beam_closure;
 
-BRC_WANTED(softens, w->softens)
+BRC_WANTED(leans, w->softens || brc_wants_joined(w))
+BRC_WANTED(grips, brc_wants_joined(w) && brc_scene_shuts(w->scene) && brc_scene_side_friction(w->scene) > 0)
 
 #define AT(member) BRC_FIELD_AT(beam_closure, member)
 static const brc_field_row rows[] = {
     BRC_FIELD(other, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
     BRC_FIELD(twin, brc_each_entry, 1, INT, NULL, "broken beams", "-"),
     BRC_KEPT_FIELD(bears, brc_each_entry, 1, INT, NULL, "broken beams", "-", "closure.bears"),
-    BRC_KEPT_FIELD(lean, brc_each_entry, LEAN, COEFF, softens, "broken beams", "-", "closure.lean"),
+    BRC_KEPT_FIELD(lean, brc_each_entry, LEAN, COEFF, leans, "broken beams", "-", "closure.lean"),
+    BRC_KEPT_FIELD(slip, brc_each_entry, SLIP, COEFF, grips, "friction of broken beams", "m", "closure.slip"),
+    BRC_KEPT_FIELD(rubbed, brc_each_row, 1, STATE, grips, "friction of broken beams", "J", "closure.rubbed"),
     BRC_FIELD(rubs, brc_each_group, 1, INT, NULL, "broken beams", "-"),
 };
 BRC_FIELD_TABLE(brc_beam_closure_fields, "broken beams that bear", BRC_LIFE_RUN, brc_wants_lost_beams, rows);
@@ -61,7 +66,7 @@ static brc_status upload_bonds(brc_simulation *s, beam_closure *f)
 
 static brc_status make_passes(brc_simulation *s, beam_closure *f)
 {
-    static const brc_value_row values[] = {{"leans", BRC_VALUE_BOOL, AT(leans)}};
+    static const brc_value_row values[] = {{"leans", BRC_VALUE_INT, AT(leans)}};
     const brc_scope run = brc_scope_of_run(s), breaks = brc_scope_of_breaks(s, &run),
                     criterion = brc_scope_of_criterion(s, &breaks);
     const brc_scope beams = {.owner = "broken beams",
@@ -72,8 +77,8 @@ static brc_status make_passes(brc_simulation *s, beam_closure *f)
                     request = brc_scope_of_request(&beams);
     const brc_pass_wanted wanted[] = {
         BRC_PASS(&f->energy, "closure_energy", NULL), BRC_PASS(&f->virial, "closure_virial", "virial"),
-        BRC_PASS(&f->move, "closure_move", "step clear"),
-        BRC_PASS(&f->begin, "closure_begin", "step closure softens half_kick open crack")};
+        BRC_PASS(&f->move, "closure_move", "step clear friction"),
+        BRC_PASS(&f->begin, "closure_begin", "step closure softens half_kick friction open crack")};
     BRC_TRY(BRC_PASSES_MAKE(s, &beams, wanted));
     return BRC_PASSES(s, &request, BRC_PASS(&f->force, "closure_force", NULL));
 }
@@ -84,7 +89,7 @@ brc_status brc_beam_closure_create(brc_simulation *s)
     BRC_TRY(BRC_ALLOCATE(s->context, &brc_cbm_own_of(s)->closure, 1, "broken beams"));
     beam_closure *f = brc_cbm_own_of(s)->closure;
     BRC_TRY(brc_fields_create(s->device, &brc_beam_closure_fields, &s->wants, f));
-    f->leans = f->lean != NULL;
+    f->leans = (f->lean ? LEANS : 0) + (f->slip ? GRIPS : 0);
     BRC_TRY(make_passes(s, f));
     return upload_bonds(s, f);
 }
@@ -123,7 +128,7 @@ brc_status brc_beam_closure_move(brc_simulation *s)
     const beam_closure *f = closure_of(s);
     if (!acts(s)) return BRC_OK;
     return BRC_RUN(f->move, s->n_groups, {"step", BRC_INT((int32_t)brc_fracture_moment(s))},
-                   {"clear", BRC_COEFF(BRC_BEAM_CLEAR)});
+                   {"clear", BRC_COEFF(BRC_BEAM_CLEAR)}, {"friction", BRC_COEFF(brc_scene_side_friction(s->scene))});
 }
 
 brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half_kick)
@@ -133,8 +138,16 @@ brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half
     brc_buffer *open = NULL, *crack = NULL;
     brc_beam_softening_cracks(s, &open, &crack);
     return BRC_RUN(f->begin, s->n_groups, {"step", BRC_INT(moment)}, {"closure", BRC_INT(bears_now(s) ? 1 : 0)},
-                   {"softens", BRC_INT(open != NULL)}, {"half_kick", BRC_STATE(half_kick)}, {"open", BRC_BUF(open)},
+                   {"softens", BRC_INT(open != NULL)}, {"half_kick", BRC_STATE(half_kick)},
+                   {"friction", BRC_COEFF(brc_scene_side_friction(s->scene))}, {"open", BRC_BUF(open)},
                    {"crack", BRC_BUF(crack)});
+}
+
+brc_status brc_beam_closure_friction(brc_simulation *s, double *out)
+{
+    const beam_closure *f = closure_of(s);
+    *out = 0;
+    return f && f->rubbed ? brc_vector_sum(s, f->rubbed, s->layout->n_rows, out) : BRC_OK;
 }
 
 /* ---- what stays ---- */

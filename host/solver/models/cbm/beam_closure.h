@@ -23,6 +23,9 @@ brc_status brc_beam_closure_move(brc_simulation *s);
 /* After the breaks of a step; half_kick as in fracture.cl. */
 brc_status brc_beam_closure_begin(brc_simulation *s, int32_t moment, double half_kick);
 
+/* What friction between the sides of interfaces took so far [J]; known once brc_vector_sums has been called. */
+brc_status brc_beam_closure_friction(brc_simulation *s, double *out);
+
 /* What a checkpoint keeps (state_store.h). */
 brc_status brc_beam_closure_store_state(brc_simulation *s, brc_state_store *store);
 

@@ -1,6 +1,7 @@
 /* Model cbm: spheres joined by beams, NAH19 (docs/notebook/beams.md). */
 #include "../../effects/guard_cause.h"
 #include "../../effects/effect.h"
+#include "beam_alone.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "cbm_internal.h"
@@ -23,13 +24,25 @@ static double bond_radius(const brc_simulation *s, int64_t e)
     return brc_beam_of_element(s, e)->radius;
 }
 
+/* Friction of broken interfaces. */
+static brc_status energies(brc_simulation *s, const brc_occasion *now)
+{
+    double rubbed;
+    BRC_TRY(brc_beam_closure_friction(s, &rubbed));
+    BRC_TRY(brc_vector_sums(s));
+    now->ledger->friction += rubbed;
+    return BRC_OK;
+}
+
 static const brc_hooked hooked[] = {{.hook = BRC_HOOK_MOVED,
                                      .order = BRC_MOVED_BONDS,
                                      .phase = BRC_PHASE_FRACTURE,
                                      .plain = brc_beam_softening_move,
                                      .due = brc_beam_softening_is_on},
-                                    {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_BONDS, .plain = brc_beam_closure_move}};
-static const brc_field_table *const fields[] = {&brc_beam_softening_fields, &brc_beam_closure_fields, NULL};
+                                    {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_BONDS, .plain = brc_beam_closure_move},
+                                    {.hook = BRC_HOOK_LEDGER, .call = energies}};
+static const brc_field_table *const fields[] = {&brc_beam_softening_fields, &brc_beam_closure_fields,
+                                                &brc_beam_alone_fields, NULL};
 
 extern const brc_bond_model brc_cbm;
 const brc_bond_model brc_cbm = {

@@ -1,5 +1,6 @@
 /* Bonds of dlsm that break (docs/notebook/fracture.md, "Fracture of cells"). */
 #include "../../core/awake.h"
+#include "brittle_interfaces.h"
 #include "cell_softening.h"
 #include "../../../../preprocess/domain/domain_rows.h"
 #include "../../../base/ranks.h"
@@ -116,12 +117,14 @@ static brc_status make_passes(brc_simulation *s)
 brc_status brc_dlsm_breaks_create(brc_simulation *s)
 {
     BRC_TRY(upload_elements(s));
-    return make_passes(s);
+    BRC_TRY(make_passes(s));
+    return brc_brittle_interfaces_create(s);
 }
 
 brc_status brc_dlsm_mark(brc_simulation *s, double share)
 {
-    return brc_pass_look_awake(s, brc_dlsm_own_of(s)->check, BRC_GIVEN({"share", BRC_COEFF(share)}));
+    BRC_TRY(brc_pass_look_awake(s, brc_dlsm_own_of(s)->check, BRC_GIVEN({"share", BRC_COEFF(share)})));
+    return brc_brittle_interfaces_mark(s, share);
 }
 
 brc_status brc_dlsm_rebuild(brc_simulation *s)
@@ -143,6 +146,7 @@ brc_status brc_dlsm_ratio(brc_simulation *s, double *out)
     *out = 0;
     BRC_TRY(brc_new_coeff(s, &ratio, s->layout->n_rows, "failure ratios"));
     BRC_TRY(BRC_RUN(brc_dlsm_own_of(s)->ratio, s->n_groups, {"out", BRC_BUF(ratio)}));
+    BRC_TRY(brc_brittle_interfaces_ratio(s, ratio));
     return brc_largest_coeff(s, ratio, out);
 }
 

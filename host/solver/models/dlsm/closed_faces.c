@@ -1,4 +1,5 @@
 #include "closed_faces.h"
+#include "brittle_interfaces.h"
 #include "dlsm_internal.h"
 #include "cell_softening.h"
 #include "rims.h"
@@ -94,10 +95,9 @@ static brc_status make_passes(brc_simulation *s, closed_faces *f)
 {
     const brc_scope run = brc_scope_of_run(s);
     brc_cell_scopes scopes;
-    const brc_scope faces = {.owner = "broken faces",
-                             .base = f,
-                             .tables = {&brc_closed_face_fields},
-                             .outer = brc_cell_scopes_make(s, &run, &scopes)};
+    const brc_scope interfaces = brc_scope_of_brittle_interfaces(s, brc_cell_scopes_make(s, &run, &scopes));
+    const brc_scope faces = {
+        .owner = "broken faces", .base = f, .tables = {&brc_closed_face_fields}, .outer = &interfaces};
     const brc_pass_wanted wanted[] = {BRC_PASS(&f->keep, "closed_keep", NULL),
                                       BRC_PASS(&f->probe_pass, "closed_probe", "moment"),
                                       BRC_PASS(&f->follow, "closed_follow", "moment all moves clear friction"),

@@ -1,5 +1,6 @@
 /* Cohesion of cells: faces that open (cell_softening.c) and broken ones that are closed (closed_faces.c), at the breaks
  * of a step. */
+#include "brittle_interfaces.h"
 #include "cell_softening.h"
 #include "closed_faces.h"
 #include "dlsm_internal.h"
@@ -14,6 +15,7 @@ static void release(brc_simulation *s)
 {
     brc_softening_free(s);
     brc_closed_faces_free(s);
+    brc_brittle_interfaces_free(s);
 }
 
 static brc_status store(brc_simulation *s, brc_state_store *to, const brc_chosen *bonds)

@@ -13,6 +13,9 @@ typedef struct brc_dlsm_own {
     brc_pass *screening_force, *screening_force_listed, *check, *ratio, *rebuild, *elastic, *bonds; /* breaks.c */
     brc_pass *rim_stress, *rim_inner_flux, *rim_flux, *rim_force;                                   /* rims.c */
     struct brc_softening_faces *softening; /* faces that open against cohesion (cell_softening.c); NULL: none does */
+    struct brc_brittle_interfaces *interfaces; /* that break at once (brittle_interfaces.c); NULL: there are none */
+    int32_t joined;                            /* 1: there are */
+    brc_buffer *along;                         /* their normals (brittle_interfaces.cl); borrowed */
     struct brc_closed_faces *closed; /* sides of broken faces that bear on each other (closed_faces.c); NULL: none do */
     struct {
         int gradient, stress, flux, force;

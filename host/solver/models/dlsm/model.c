@@ -1,6 +1,7 @@
 /* Model dlsm: the conservative law (docs/notebook/theory.md T2). */
 #include "../../effects/fracture/cell_breaks.h"
 #include "../../effects/effect.h"
+#include "brittle_interfaces.h"
 #include "cell_softening.h"
 #include "closed_faces.h"
 #include "dlsm_internal.h"
@@ -20,6 +21,7 @@ static const brc_model_breaking breaking = {.create = brc_dlsm_breaks_create,
                                             .rebuild = brc_dlsm_rebuild,
                                             .loosens = true,
                                             .places = brc_rims_may_add,
+                                            .mark_beside = brc_brittle_interfaces_follow,
                                             .ratio = brc_dlsm_ratio,
                                             .gradients_around = brc_dlsm_gradients_around,
                                             .replace_around = brc_dlsm_replace_around,
@@ -50,7 +52,7 @@ static const brc_hooked hooked[] = {{.hook = BRC_HOOK_RESTART, .plain = brc_clos
                                      .due = brc_softening_is_on},
                                     {.hook = BRC_HOOK_LEDGER, .call = energies}};
 static const brc_field_table *const fields[] = {&brc_softening_fields, &brc_open_list_fields, &brc_closed_face_fields,
-                                                NULL};
+                                                &brc_brittle_interface_fields, NULL};
 
 extern const brc_bond_model brc_dlsm;
 const brc_bond_model brc_dlsm = {
