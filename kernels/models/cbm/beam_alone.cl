@@ -9,14 +9,15 @@
 #define HOLD 2
 #define HOLD_ALONE REAL(4)
 
-/* How an interface of this normal lies to a beam along axis0 whose sides slide along it. */
+/* How an interface of this normal, out of the own element, lies to a beam along axis0 whose sides slide along it; beams
+ * that lean back over a plane that is not quite theirs lie in it. */
 LAW beam_lean beam_lean_in(lane_vec3 axis0, lane_vec3 plane)
 {
     const lane zero = LANE_ZERO, one = zero + REAL(1), cosine = lane_vec3_dot(axis0, plane),
-               c = LANE_SQRT(cosine * cosine), sign = one - REAL(2) * beam_positive(-cosine);
-    const lane_vec3 side = lane_vec3_sub(lane_vec3_scale(sign, plane), lane_vec3_scale(c, axis0));
+               c = lane_min(lane_max(cosine, zero), one);
+    const lane_vec3 side = lane_vec3_sub(plane, lane_vec3_scale(cosine, axis0));
     const lane per = one / LANE_SQRT(lane_max(lane_vec3_dot(side, side), zero + REAL(1e-12)));
-    return (beam_lean){lane_vec3_scale(per, side), lane_min(c, one), zero - one, zero, one};
+    return (beam_lean){lane_vec3_scale(per, side), c, zero - one, zero, one};
 }
 
 /* A whole beam: its pull over HOLD_ALONE times its part, and its stress [Pa]. */

@@ -78,11 +78,13 @@ ROUTINE beam_laid beam_lay(UPDATE(coeff) crack, brc_size entry, int e, int j, in
                       pressed = beam_back(orientation, e, principal.third_axis), plane = {normal.x, normal.y, normal.z};
     const coeff straight = soft_dot(pulled, plane), least = soft_dot(pressed, plane);
     const int slides = soft_dot(plane, plane) > 0 && straight * straight < BEAM_ASKEW * BEAM_ASKEW;
-    const soft_vector axis = slides ? plane : pulled;
+    const int lies = soft_dot(plane, plane) > 0; /* its sides are known */
+    const soft_vector axis = slides ? plane : soft_scale(lies && straight < 0 ? REAL(-1) : REAL(1), pulled);
     GLOBAL const coeff *r = branch + (brc_size)slot * 3 * C + e % C;
     const soft_vector beam = soft_scale(inv_length[entry], (soft_vector){r[0], r[C], r[2 * C]});
-    const coeff cosine = soft_dot(axis, beam), c = cosine < 0 ? -cosine : cosine;
-    soft_vector side = soft_add(soft_scale(cosine < 0 ? REAL(-1) : REAL(1), axis), -c, beam);
+    const coeff cosine = soft_dot(axis, beam), sign = cosine < 0 && !lies ? REAL(-1) : REAL(1),
+                c = sign * cosine > 0 ? sign * cosine : 0;
+    soft_vector side = soft_add(soft_scale(sign, axis), -sign * cosine, beam);
     const coeff s = SQRT(soft_dot(side, side)), leans = REAL(4) * s * s;
     side = s > REAL(1e-6) ? side
                           : soft_add(pressed, -soft_dot(pressed, beam),

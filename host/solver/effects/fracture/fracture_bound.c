@@ -110,7 +110,8 @@ static brc_status upload_factors(brc_simulation *s, const brc_strengths *strengt
     return brc_upload_coeff(s, f->weakest, *weakest, n);
 }
 
-/* Normals by entries; brittle bonds no weaker than their solids, and bonds in no interface, have none. */
+/* Normals by entries, out of their elements; brittle bonds no weaker than their solids, and bonds in no interface, have
+ * none. */
 static brc_status upload_planes(brc_simulation *s, const brc_strengths *strengths, bool opens)
 {
     const brc_layout *layout = s->layout;
@@ -124,8 +125,9 @@ static brc_status upload_planes(brc_simulation *s, const brc_strengths *strength
         double *own = plane + (k / layout->slice) * 3 * layout->slice + k % layout->slice;
         const bool lies =
             h >= 0 && normal && (strengths->factor[d->bond[h]] < 1 || (opens && opens_alone(strengths, d->bond[h])));
+        const bool from_smaller = h >= 0 && d->neighbour[d->twin[h]] < d->neighbour[h];
         for (int c = 0; lies && c < 3; ++c)
-            own[c * layout->slice] = normal[3 * (int64_t)d->bond[h] + c];
+            own[c * layout->slice] = (from_smaller ? 1 : -1) * normal[3 * (int64_t)d->bond[h] + c];
     }
     s->fracture->turned = brc_orientation_of(s);
     return brc_upload_coeff(s, s->fracture->plane, plane, 3 * n_entries);
