@@ -72,7 +72,8 @@ KERNEL void beam_alone_choose(int n_groups, int step, OWN(int) row_start, OWN(in
                 const lane_vec3 axis0 = lane_vec3_scale(bond.inv_length0, lane_block3(branch, slot, lane0)),
                                 normal = lane_block3(plane, slot, lane0);
                 const beam_lean lean = beam_lean_in(axis0, normal);
-                const lane y = beam_part_of(bond, axis0, own, q_j, lean).energy;
+                const beam_part part = beam_part_of(bond, axis0, own, q_j, lean);
+                const lane y = part.energy;
                 const lane_vec3 opening = beam_opening(bond.shape);
                 const lane_vec3 back =
                     lane_vec3_add(opening, quat_rotate_minus_identity(quat_conjugate(own.orientation), opening, 1));

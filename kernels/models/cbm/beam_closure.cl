@@ -291,7 +291,8 @@ LAW int closure_move_group(int group, coeff clear, coeff friction, OWN(int) row_
             const lane rubs_off = REAL(0.5) * b.bears * b.grips * now.spent;
             closure_stick(slip, slot, lane0, b.grips, now.slip);
             b.slip = closure_slip_at(slip, slot, lane0);
-            left = REAL(0.5) * b.bears * closure_carry(b, own, leans).energy;
+            const beam_carry held = closure_carry(b, own, leans);
+            left = REAL(0.5) * b.bears * held.energy;
 #define RUB(l) rubbed[first + 0x##l] += (state)LANE_ITEM(rubs_off, l);
             LANE_EACH(RUB)
 #undef RUB
@@ -395,7 +396,8 @@ KERNEL void closure_begin(int n_groups, int step, int closure, int softens, stat
             closure_bond b = closure_bond_at(slot, lane0, own, other, bears, branch, displacement, orientation, axial,
                                              bend, twist, beam_of, leans, lean, slip);
             if (leans & CLOSURE_GRIPS) { /* they stick as far as friction holds what the beam bore */
-                const beam_slip now = closure_slipped(b, own, friction).slip;
+                const beam_slide slide = closure_slipped(b, own, friction);
+                const beam_slip now = slide.slip;
 #define NEW(l) break_step[entry + 0x##l] == step ? LANE_ITEM(b.grips, l) : REAL(0)
                 closure_stick(slip, slot, lane0, LANE_MAKE(lane, NEW), now);
 #undef NEW
