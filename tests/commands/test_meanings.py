@@ -54,6 +54,21 @@ stages:
     loads: [{element_displacement: {set: x-, x: 0, y: 0, z: 0}}, {element_rotation: {set: x+, x: 1 mrad}}]
 output: {picture: false, checkpoint: {wall: 1 h}}
 """
+# Spheres on both sides of a plane that breaks at once.
+JOINED = """version: 1
+materials: {glass: {E: 70 GPa, nu: 0.2, density: 2500 kg/m^3, strength: 1 MPa}, film: {E: 70 GPa, nu: 0.2, density: 2500 kg/m^3, strength: 1 MPa}}
+model: cbm
+fracture: {}
+interactions: {interfaces: [{materials: {first: glass, second: film, factor: 50 %}}]}
+bodies:
+  - {name: bar, shape: {box: {size: [3 m, 1 m, 1 m]}}, fill: {packing: {elements: 300}}, beams: 8, material: glass,
+     regions: [{where: {half_space: {point: [150 cm, 0, 0], normal: [1, 0, 0]}}, material: film}]}
+stages:
+  - name: pull
+    solver: {dynamic: {steps: 100}}
+    loads: [{element_displacement: {set: x-, x: 0, y: 0, z: 0}}, {element_displacement: {set: x+, x: 1 mm}}]
+output: {picture: false, checkpoint: {wall: 1 h}}
+"""
 PRESSED = """version: 1
 materials: {glass: {E: 70 GPa, nu: 0.2, density: 2500 kg/m^3}}
 bodies: [{name: cube, shape: {box: {size: [1 m, 1 m, 1 m]}}, fill: {noisy_grid: {cells: [2, 2, 2], spread: 30 %}}}]
@@ -131,7 +146,7 @@ def main():
         for name in names:
             run(test_resume.command(name, f"{folder}/{name}", test_resume.overrides(name) + [KEPT.get(name, "output.checkpoint.wall=1 h")]))
             walk_run(f"{folder}/{name}", seen)
-        for name, scene in (("published", PUBLISHED), ("damped", DAMPED), ("turned", TURNED), ("pressed", PRESSED), ("stiff", STIFF)):
+        for name, scene in (("published", PUBLISHED), ("damped", DAMPED), ("turned", TURNED), ("joined", JOINED), ("pressed", PRESSED), ("stiff", STIFF)):
             with open(f"{folder}/{name}.yaml", "w", encoding="utf-8") as file:
                 file.write(scene)
             run([test_resume.PROGRAM, "run", f"{folder}/{name}.yaml", "-o", f"{folder}/{name}", "--device", "cpu"])
