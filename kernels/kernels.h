@@ -68,6 +68,7 @@
 #include "models/cbm/beam_softening.cl"
 #include "models/cbm/beam_onset.cl"
 #include "models/cbm/beam_alone.cl"
+#include "models/cbm/beam_bridges.cl"
 #include "models/cbm/beam_closure.cl"
 
 /* Passes are compiled twice from one text: over all elements ... */

@@ -14,7 +14,8 @@
  * bound of near_margin [n] or more, the smallest limit_margin of that member and its neighbours [-]: without one the
  * mean is below it too. factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element;
  * only read if weighted. plane [slot][3][C]: the normal of the interface that a bond lies in, out of the own element,
- * in the undeformed body, else 0; turned [n][4]: orientations of the elements; only read if joined. */
+ * in the undeformed body, else 0; only read if joined; turned [n][4]: orientations of the elements; only read if it has
+ * FRACTURE_TURNS. */
 
 #define RECORD 8
 /* Component 0 of a row or of a lane of rows; the next are C further on. */

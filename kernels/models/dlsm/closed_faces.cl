@@ -3,9 +3,9 @@
  *
  * Entries [n_slots][C]: closed: CLOSED_OPEN from the break on, CLOSED_PRESSED while its sides are, CLOSED_CLEAR once
  * they stand clear of each other, for good, and CLOSED_KIND times 1 + how many of its two cells have no bonds; 0: never
- * broke here. spring: kappa [N/m], of the bond that was, across
- * its interface times the square of the cosine to it; overlap: the gap, below 0, that a face had when it broke or
- * one of its cells came off, from which on it counts: nothing is pressed by a break [m]; slide [n_slots][3][C]: where
+ * broke here. spring: kappa [N/m], of the bond that was, across its interface times the square of the cosine to it;
+ * overlap: the gap, below 0, that a face had when it broke or one of its cells came off, from which on it counts:
+ * nothing is pressed by a break [m]; slide [n_slots][3][C]: where
  * along its face it sticks, in the undeformed body [m], only with friction. The lower row of a face decides for both.
  * Elements [n]: next: the step at which the faces of which it is the lower row are looked at again, the next one while
  * some are there: how long a face that stands open stays so is not to be told from its speed, for what pushes its cells

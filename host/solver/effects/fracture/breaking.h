@@ -39,6 +39,9 @@ brc_status brc_fracture_lost(brc_simulation *s, double *out);
 const double *brc_fracture_limits(const brc_simulation *s);
 /* What criteria of elements judged last: stress [n_elements][6] [Pa], record [n_elements][8] (fracture.cl). */
 brc_status brc_fracture_judged(brc_simulation *s, double *stress, double *record);
+/* Normals of interfaces by entries, plane [n_slots][3][C], zeros before: out of the own element, of the bonds in some
+ * interface that lies [n_bonds] marks (interfaces.h). All ranks. */
+brc_status brc_fracture_planes(brc_simulation *s, const uint8_t *lies, double *plane);
 /* Factors of bonds, half-edges [n_slots][C]; NULL: all are as strong as their material. */
 brc_buffer *brc_fracture_factors(const brc_simulation *s);
 

@@ -110,25 +110,32 @@ static brc_status upload_factors(brc_simulation *s, const brc_strengths *strengt
     return brc_upload_coeff(s, f->weakest, *weakest, n);
 }
 
-/* Normals by entries, out of their elements; brittle bonds no weaker than their solids, and bonds in no interface, have
- * none. */
-static brc_status upload_planes(brc_simulation *s, const brc_strengths *strengths, bool opens)
+brc_status brc_fracture_planes(brc_simulation *s, const uint8_t *lies, double *plane)
 {
     const brc_layout *layout = s->layout;
     const brc_domain *d = s->domain;
-    const int64_t n_entries = layout->n_slots * layout->slice;
     BRC_FREED double *normal = NULL;
     BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, 1, &normal));
-    BRC_LOCAL(s->context, 3 * n_entries, double, plane, "normals of interfaces");
-    for (int64_t k = 0; k < n_entries; ++k) {
+    for (int64_t k = 0; normal && k < layout->n_slots * layout->slice; ++k) {
         const int32_t h = layout->half_edge[k];
+        if (h < 0 || !lies[d->bond[h]]) continue;
+        const double out = d->neighbour[d->twin[h]] < d->neighbour[h] ? 1 : -1; /* normal: of the smaller element */
         double *own = plane + (k / layout->slice) * 3 * layout->slice + k % layout->slice;
-        const bool lies =
-            h >= 0 && normal && (strengths->factor[d->bond[h]] < 1 || (opens && opens_alone(strengths, d->bond[h])));
-        const bool from_smaller = h >= 0 && d->neighbour[d->twin[h]] < d->neighbour[h];
-        for (int c = 0; lies && c < 3; ++c)
-            own[c * layout->slice] = (from_smaller ? 1 : -1) * normal[3 * (int64_t)d->bond[h] + c];
+        for (int c = 0; c < 3; ++c)
+            own[c * layout->slice] = out * normal[3 * (int64_t)d->bond[h] + c];
     }
+    return BRC_OK;
+}
+
+/* Of brittle bonds weaker than their solids, and of beams that open one by one. */
+static brc_status upload_planes(brc_simulation *s, const brc_strengths *strengths, bool opens)
+{
+    const int64_t n_entries = s->layout->n_slots * s->layout->slice, n_bonds = s->domain->n_bonds;
+    BRC_LOCAL(s->context, n_bonds, uint8_t, lies, "normals of interfaces");
+    BRC_LOCAL(s->context, 3 * n_entries, double, plane, "normals of interfaces");
+    for (int64_t b = 0; b < n_bonds; ++b)
+        lies[b] = strengths->factor[b] < 1 || (opens && opens_alone(strengths, b));
+    BRC_TRY(brc_fracture_planes(s, lies, plane));
     s->fracture->turned = brc_orientation_of(s);
     return brc_upload_coeff(s, s->fracture->plane, plane, 3 * n_entries);
 }

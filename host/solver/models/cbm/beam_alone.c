@@ -40,7 +40,7 @@ static brc_status upload(brc_simulation *s, const beam_alone *f)
             double *own = hold + (k / slice) * HOLD * slice + k % slice;
             own[0] = strengths.tension[bond] * area[bond];
             own[slice] = area[bond];
-            holds[(block * slice + k % slice) / width] = own[0] > 0;
+            holds[(block * slice + k % slice) / width] |= own[0] > 0;
         }
     BRC_TRY(brc_upload_coeff(s, f->hold, hold, HOLD * n_entries));
     return brc_upload_int(f->holds, holds, s->n_groups);

@@ -1,5 +1,6 @@
 /* Beams that break by the virial stress of their elements: limits, and the order of the passes. */
 #include "beam_alone.h"
+#include "beam_bridges.h"
 #include "beam_closure.h"
 #include "../../core/awake.h"
 #include "../../laws/beam_law.h"
@@ -83,6 +84,7 @@ brc_status brc_cbm_create_fracture(brc_simulation *s)
     BRC_TRY(BRC_PASSES(s, &criterion, BRC_PASS(&own->break_pass, "fracture_break", "level step half_kick")));
     BRC_TRY(BRC_PASSES(s, &evaluation, BRC_PASS(&own->breaking_force, "fracture_force", NULL)));
     BRC_TRY(brc_beam_alone_create(s));
+    BRC_TRY(brc_beam_bridges_create(s));
     return brc_beam_closure_create(s);
 }
 
@@ -98,6 +100,7 @@ brc_status brc_cbm_break_bonds(brc_simulation *s, double half_kick)
     const int32_t moment = (int32_t)brc_fracture_moment(s);
     BRC_TRY(brc_fracture_choose(s, moment));
     BRC_TRY(brc_beam_alone_choose(s, moment));
+    BRC_TRY(brc_beam_bridges_choose(s, moment, half_kick));
     BRC_TRY(brc_beam_softening_begin(s, moment));
     BRC_TRY(BRC_RUN(brc_cbm_own_of(s)->break_pass, s->n_groups, {"level", BRC_INT(s->scene->fracture.level)},
                     {"step", BRC_INT(moment)}, {"half_kick", BRC_STATE(half_kick)}));

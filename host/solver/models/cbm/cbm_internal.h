@@ -17,6 +17,7 @@ typedef struct brc_cbm_own {
     brc_pass *breaking_force, *break_pass; /* only with fracture */
     struct brc_beam_softening *softening;  /* beams that open against cohesion (beam_softening.c); NULL: none does */
     struct brc_beam_closure *closure;      /* broken beams that bear (beam_closure.c); NULL: none does */
+    struct brc_beam_bridges *bridges;      /* brittle beams that bridge a crack (beam_bridges.c); NULL: none does */
     struct brc_beam_alone *alone;          /* beams of brittle interfaces (beam_alone.c); NULL: there are none */
 } brc_cbm_own;
 static inline brc_cbm_own *brc_cbm_own_of(const brc_simulation *s)

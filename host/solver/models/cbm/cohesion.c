@@ -1,5 +1,6 @@
 /* Cohesion of beams: those that open (beam_softening.c) and broken ones whose ends bear (beam_closure.c). */
 #include "beam_alone.h"
+#include "beam_bridges.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "cbm_internal.h"
@@ -9,6 +10,7 @@ static void release(brc_simulation *s)
     brc_beam_softening_free(s);
     brc_beam_closure_free(s);
     brc_beam_alone_free(s);
+    brc_beam_bridges_free(s);
 }
 
 static brc_status store(brc_simulation *s, brc_state_store *to, const brc_chosen *bonds)

@@ -2,6 +2,7 @@
 #include "../../effects/guard_cause.h"
 #include "../../effects/effect.h"
 #include "beam_alone.h"
+#include "beam_bridges.h"
 #include "beam_closure.h"
 #include "beam_softening.h"
 #include "cbm_internal.h"
@@ -42,7 +43,7 @@ static const brc_hooked hooked[] = {{.hook = BRC_HOOK_MOVED,
                                     {.hook = BRC_HOOK_MOVED, .order = BRC_MOVED_BONDS, .plain = brc_beam_closure_move},
                                     {.hook = BRC_HOOK_LEDGER, .call = energies}};
 static const brc_field_table *const fields[] = {&brc_beam_softening_fields, &brc_beam_closure_fields,
-                                                &brc_beam_alone_fields, NULL};
+                                                &brc_beam_alone_fields, &brc_beam_bridge_fields, NULL};
 
 extern const brc_bond_model brc_cbm;
 const brc_bond_model brc_cbm = {

@@ -1,6 +1,6 @@
 #include "brittle_interfaces.h"
 #include "../../core/awake.h"
-#include "../../effects/fracture/interfaces.h"
+#include "../../effects/fracture/breaking.h"
 #include "../../effects/fracture/strengths.h"
 #include "dlsm_internal.h"
 #include <math.h>
@@ -32,24 +32,24 @@ static brc_status upload(brc_simulation *s, const brittle_interfaces *f)
     const int64_t slice = layout->slice, n_entries = layout->n_slots * slice;
     BRC_ENDS_WITH(brc_strengths_free) brc_strengths strengths = {0};
     BRC_TRY(brc_strengths_create(s->context, s->scene, d, s->material_of_element, &strengths));
-    BRC_FREED double *normal = NULL;
-    BRC_TRY(brc_interface_normals(s->context, s->scene, d, s->material_of_element, 1, &normal));
     BRC_LOCAL(s->context, 3 * n_entries, double, along, "normals of interfaces");
     BRC_LOCAL(s->context, 3 * n_entries, double, across, "branches of interfaces");
     BRC_LOCAL(s->context, layout->n_rows, double, nearest, "limits of interfaces");
+    BRC_LOCAL(s->context, d->n_bonds, uint8_t, lies, "normals of interfaces");
+    for (int64_t b = 0; b < d->n_bonds; ++b)
+        lies[b] = strengths.factor[b] < 1 && strengths.tension[b] > 0;
+    BRC_TRY(brc_fracture_planes(s, lies, along));
     for (int32_t r = 0; r < layout->n_rows; ++r)
         nearest[r] = never;
     for (int64_t k = 0; k < n_entries; ++k) {
         const int32_t h = layout->half_edge[k];
-        if (h < 0 || !normal || !(strengths.factor[d->bond[h]] < 1) || !(strengths.tension[d->bond[h]] > 0)) continue;
+        if (h < 0 || !lies[d->bond[h]]) continue;
         const int32_t e = d->neighbour[d->twin[h]];
-        const double out = e < d->neighbour[h] ? 1 : -1; /* normal: out of the smaller element */
         double size = 0;
         for (int c = 0; c < 3; ++c) {
             const int64_t at = (k / slice * 3 + c) * slice + k % slice;
-            along[at] = out * normal[3 * (int64_t)d->bond[h] + c];
             across[at] = d->position[3 * (int64_t)d->neighbour[h] + c] - d->position[3 * (int64_t)e + c];
-            size += fabs(normal[3 * (int64_t)d->bond[h] + c]);
+            size += fabs(along[at]);
         }
         double *own = &nearest[layout->row_of_element[e]];
         if (size > 0) *own = fmin(*own, strengths.tension[d->bond[h]]);
