@@ -10,7 +10,7 @@
  *
  * bears [n]: limit in tension times six volumes over the number of beams, what a beam of the element bears times its
  * length (brc_bond_area) [N m]; 0: its beams do not break so. broken [n]: beams that the element lost. */
-#define BRIDGE_ENDS REAL(4)
+#define BRIDGE_ENDS REAL(6)
 /* Elements beside a crack have lost more than one. */
 #define BRIDGE_LOST STATE(1)
 
