@@ -142,9 +142,9 @@ static const brc_section CRITERION_SECTION = {.title = "criterion",
 static const brc_entry FRACTURE[] = {
     {"criterion", BRC_TYPE_STRUCT, .section = &CRITERION_SECTION, .given = "auto", .meaning = "when bonds break"},
     {"closure", BRC_TYPE_BOOL, FIELD(brc_fracture, closure), .given = "true",
-     .meaning = "the sides of a face or beam that broke bear on each other until they stand clear; where bonds break "
-                "at once, only in scenes without `contact`, "
-                "whose law takes such sides over; false: what broke carries nothing"},
+     .meaning = "the sides of a face or beam that broke bear on each other until they stand clear (where bonds break "
+                "at once, only without `contact`, whose law takes them over), and brittle beams across a crack let "
+                "go; false: neither"},
     {"friction", BRC_TYPE_QUANTITY, "", NOT_NEGATIVE, FIELD(brc_fracture, side_friction), .given = "auto",
      .word = "auto", .word_value = -1, .sample = "0.5",
      .meaning = "Coulomb friction of the sides of broken faces (model dlsm: bonds that break at once, and faces that "

@@ -14,13 +14,12 @@
 /* Elements beside a crack have lost more than one. */
 #define BRIDGE_LOST STATE(1)
 
-/* Largest push on an element, its mean's, over its limit in tension [-]. */
-ROUTINE coeff bridge_push(int e, int level, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record,
-                          OWN(coeff) limits)
+/* Largest push on an element, its mean's [Pa]. */
+ROUTINE coeff bridge_push(int e, int level, OWN(int) row_start, OWN(int) neighbour, GATHER(coeff) record)
 {
     const failure_stress mean = fracture_mean_of(e, level, row_start, neighbour, record);
     const failure_principal p = failure_principal_of(mean);
-    return p.third < 0 ? -p.third / limits[(brc_size)e * 3] : REAL(0);
+    return p.third < 0 ? -p.third : REAL(0);
 }
 
 /* After the elements chose: those beside a crack that chose none choose the one whose ends are farthest apart. */
@@ -54,11 +53,13 @@ KERNEL void beam_bridges_choose(int n_groups, int level, int step, int weighted,
 #define CHOOSE(l)                                                                                                      \
     if ((looks >> 0x##l & 1) && LANE_ITEM(load, l) > LANE_ITEM(least, l) && LANE_ITEM(along, l) > 0) {                 \
         const int e = first + 0x##l, j = neighbour[entry + 0x##l];                                                     \
-        const coeff times = LANE_ITEM(load, l) / LANE_ITEM(least, l);                                                  \
-        if (times > most[0x##l] && times > REAL(1) + bridge_push(e, level, row_start, neighbour, record, limits)) {    \
+        const coeff own_limit = limits[(brc_size)e * 3] * (weighted ? factor[entry + 0x##l] : REAL(1)),                \
+                    times = LANE_ITEM(load, l) / LANE_ITEM(least, l);                                                  \
+        if (times > most[0x##l] &&                                                                                     \
+            (times - REAL(1)) * own_limit > bridge_push(e, level, row_start, neighbour, record)) {                     \
             most[0x##l] = times;                                                                                       \
             choice[e] = 4 * j + FAILURE_TENSION;                                                                       \
-            measure[e] = BRIDGE_ENDS * times * limits[(brc_size)e * 3] * (weighted ? factor[entry + 0x##l] : REAL(1)); \
+            measure[e] = BRIDGE_ENDS * times * own_limit;                                                              \
             STORE_SAME(mark + group, step);                                                                            \
             STORE_SAME(mark + j / W, step);                                                                            \
         }                                                                                                              \

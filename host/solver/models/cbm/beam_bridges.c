@@ -1,4 +1,5 @@
 #include "beam_bridges.h"
+#include "../../effects/fracture/ahead.h"
 #include "cbm_internal.h"
 
 struct brc_beam_bridges {
@@ -68,7 +69,7 @@ void brc_beam_bridges_free(brc_simulation *s)
 brc_status brc_beam_bridges_choose(brc_simulation *s, int32_t moment, double half_kick)
 {
     const beam_bridges *f = brc_cbm_own_of(s)->bridges;
-    const bool looks = f && (!(half_kick > 0) || moment % every == 0);
+    const bool looks = f && (!(half_kick > 0) || moment % every == 0) && !brc_ahead_is_whole(s);
     return looks ? BRC_RUN(f->choose, s->n_groups, {"level", BRC_INT(s->scene->fracture.level)},
                            {"step", BRC_INT(moment)})
                  : BRC_OK;
