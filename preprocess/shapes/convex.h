@@ -37,10 +37,10 @@ brc_status brc_convex_of_domain(brc_context *context, const brc_domain *domain, 
 /* A rigid body of this shape as convex pieces, origins at its mass centre, which is given in the coordinates of the
  * shape. Boxes and convex meshes are themselves. Curved shapes have `facets` flat faces (8 or more) around a full turn:
  * cylinders and cones regular prisms and frusta, spheres the planes at the vertices of a halved icosahedron that has at
- * least nearly as many around (icosphere.h), each so that the volume is the shape's; their mass properties are those of
- * the smooth shape, to rounding. Anything else (tori, parts, meshes that are not convex) is filled with convex cells,
- * about `pieces` of them, and has the mass properties of these cells. BRC_BAD_INPUT as brc_solid_create and
- * brc_domain_build; BRC_NO_MEMORY. Caller frees *out. */
+ * least nearly as many around (icosphere.h), rings as many straight pieces of as many faces, each so that the volume is
+ * the shape's; their mass properties are those of the smooth shape, to rounding. Anything else (parts, meshes that are
+ * not convex) is filled with convex cells, about `pieces` of them, and has the mass properties of these cells.
+ * BRC_BAD_INPUT as brc_solid_create and brc_domain_build; BRC_NO_MEMORY. Caller frees *out. */
 brc_status brc_convex_of_shape(brc_context *context, const brc_shape *shape, int32_t facets, int32_t pieces,
                                int n_threads, brc_convex *out, brc_rigid *rigid);
 

@@ -19,12 +19,14 @@ enum { PIECES = 300 };
 
 static const int32_t ROW[6] = {0, 1, 2, 1, 0, 0}, COLUMN[6] = {0, 1, 2, 2, 2, 1};
 
-/* One polyhedron with room for so many faces, after they are cut, and entries of loops. */
-static brc_status begin(brc_context *context, int64_t n_corners, int64_t n_faces, int64_t n_loop, brc_convex *out)
+/* n polyhedra, each with so many corners and room for so many faces, after they are cut, and entries of loops. */
+static brc_status begin(brc_context *context, int64_t n, int64_t n_corners, int64_t n_faces, int64_t n_loop,
+                        brc_convex *out)
 {
-    BRC_TRY(brc_convex_allocate(context, 1, n_corners, n_faces, out));
-    out->corner_start[1] = (int32_t)n_corners;
-    return BRC_ALLOCATE(context, &out->loop, n_loop, "corners of faces of polyhedra");
+    BRC_TRY(brc_convex_allocate(context, n, n * n_corners, n * n_faces, out));
+    for (int64_t p = 0; p < n; ++p)
+        out->corner_start[p + 1] = (int32_t)((p + 1) * n_corners);
+    return BRC_ALLOCATE(context, &out->loop, n * n_loop, "corners of faces of polyhedra");
 }
 
 /* At most so many parts a face of n corners is cut into; each part has two corners of its neighbours. */
@@ -33,11 +35,12 @@ static int64_t most_parts(int64_t n)
     return 1 + n / (BRC_CONVEX_PART - 2);
 }
 
-/* Append the face with these corners, counter-clockwise from outside, as a fan of parts around the first. */
-static void add_face(brc_convex *c, const int32_t *corner, int32_t n)
+/* Append the face with these corners, counter-clockwise from outside, as a fan of parts around the first, to polyhedron
+ * p, the last that has any; its face_start[p + 1] counts them. */
+static void add_face(brc_convex *c, int32_t p, const int32_t *corner, int32_t n)
 {
     for (int32_t from = 1; from < n - 1; from += BRC_CONVEX_PART - 2) {
-        const int32_t f = c->face_start[1]++,
+        const int32_t f = c->face_start[p + 1]++,
                       last = from + BRC_CONVEX_PART - 2 < n - 1 ? from + BRC_CONVEX_PART - 2 : n - 1;
         int32_t *loop = c->loop + c->loop_start[f];
         *loop++ = corner[0];
@@ -47,17 +50,18 @@ static void add_face(brc_convex *c, const int32_t *corner, int32_t n)
     }
 }
 
-/* Planes through the loops by their area vectors, and the radius. */
-static void finish(brc_convex *c)
+/* Planes through the loops of polyhedron p by their area vectors, and the radius. */
+static void finish_one(brc_convex *c, int32_t p)
 {
-    for (int32_t f = 0; f < c->face_start[1]; ++f) {
+    const double *corner = c->corner + 3 * (int64_t)c->corner_start[p];
+    for (int32_t f = c->face_start[p]; f < c->face_start[p + 1]; ++f) {
         const int32_t *loop = c->loop + c->loop_start[f], m = c->loop_start[f + 1] - c->loop_start[f];
         double area[3] = {0.0, 0.0, 0.0}, *plane = c->plane + 4 * (int64_t)f;
         for (int32_t k = 1; k + 1 < m; ++k) {
-            const double *base = c->corner + 3 * (int64_t)loop[0];
+            const double *base = corner + 3 * (int64_t)loop[0];
             double x[3], y[3], part[3];
-            mesh_minus(c->corner + 3 * (int64_t)loop[k], base, x);
-            mesh_minus(c->corner + 3 * (int64_t)loop[k + 1], base, y);
+            mesh_minus(corner + 3 * (int64_t)loop[k], base, x);
+            mesh_minus(corner + 3 * (int64_t)loop[k + 1], base, y);
             mesh_cross(x, y, part);
             for (int a = 0; a < 3; ++a)
                 area[a] += part[a];
@@ -67,9 +71,14 @@ static void finish(brc_convex *c)
             plane[a] = area[a] / length;
         plane[3] = 0.0;
         for (int32_t k = 0; k < m; ++k)
-            plane[3] += mesh_dot(plane, c->corner + 3 * (int64_t)loop[k]) / m;
+            plane[3] += mesh_dot(plane, corner + 3 * (int64_t)loop[k]) / m;
     }
-    c->radius[0] = brc_convex_reach(c, 0);
+    c->radius[p] = brc_convex_reach(c, p);
+}
+static void finish(brc_convex *c)
+{
+    for (int32_t p = 0; p < c->n; ++p)
+        finish_one(c, p);
 }
 
 /* Move the origins of all polyhedra to `to`. */
@@ -88,12 +97,12 @@ static brc_status box(brc_context *context, const brc_shape *shape, brc_convex *
     static const int32_t loop[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     const double *s = shape->size;
-    BRC_TRY(begin(context, 8, 6, 24, out));
+    BRC_TRY(begin(context, 1, 8, 6, 24, out));
     for (int k = 0; k < 8; ++k)
         for (int a = 0; a < 3; ++a)
             out->corner[3 * k + a] = shape->origin[a] + (k >> a & 1 ? s[a] : 0.0);
     for (int f = 0; f < 6; ++f)
-        add_face(out, loop[f], 4);
+        add_face(out, 0, loop[f], 4);
     *rigid = (brc_rigid){.volume = s[0] * s[1] * s[2]};
     for (int a = 0; a < 3; ++a) {
         const double b = s[(a + 1) % 3], c = s[(a + 2) % 3];
@@ -104,16 +113,22 @@ static brc_status box(brc_context *context, const brc_shape *shape, brc_convex *
     return BRC_OK;
 }
 
+/* Regular polygon of n corners with the area of a circle: its radius over the circle's. */
+static double swell_of(int32_t n)
+{
+    return sqrt(2.0 * PI / (n * sin(2.0 * PI / n)));
+}
+
 /* A cone's end without radius is one corner. */
 static brc_status frustum(brc_context *context, const brc_shape *shape, int32_t n, brc_convex *out, brc_rigid *rigid)
 {
     const int a = shape->axis, b = (a + 1) % 3, c = (a + 2) % 3;
     const double radius[2] = {shape->radius, shape->kind == BRC_SHAPE_CYLINDER ? shape->radius : shape->radius2};
-    const double swell = sqrt(2.0 * PI / (n * sin(2.0 * PI / n))); /* regular polygon of the circle's area */
+    const double swell = swell_of(n);
     const int32_t count[2] = {radius[0] > 0 ? n : 1, radius[1] > 0 ? n : 1};
     int32_t *cap = NULL;
-    brc_status status =
-        begin(context, count[0] + count[1], n + 2 * most_parts(n), 4 * (int64_t)n + 2 * (n + 2 * most_parts(n)), out);
+    brc_status status = begin(context, 1, count[0] + count[1], n + 2 * most_parts(n),
+                              4 * (int64_t)n + 2 * (n + 2 * most_parts(n)), out);
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &cap, n, "corners of a cap"));
     for (int end = 0; end < 2; ++end)
@@ -131,13 +146,13 @@ static brc_status frustum(brc_context *context, const brc_shape *shape, int32_t 
         if (low_next != low) loop[m++] = low_next;
         loop[m++] = high_next;
         if (high_next != high) loop[m++] = high;
-        add_face(out, loop, m);
+        add_face(out, 0, loop, m);
     }
     for (int end = 0; end < 2; ++end) {
         if (count[end] == 1) continue;
         for (int32_t k = 0; k < n; ++k)
             cap[k] = end * count[0] + (end ? k : n - 1 - k);
-        add_face(out, cap, n);
+        add_face(out, 0, cap, n);
     }
     finish(out);
     /* r from p to q along the axis, s = 0 .. 1: integrals of r^2, r^2 s, r^2 s^2 and r^4 */
@@ -156,12 +171,56 @@ cleanup:
     return status;
 }
 
+/* n pieces of a regular polygon's ring, each the straight way between tubes of as many flat faces in planes through the
+ * axis, which two pieces share. A tube lies on flat faces along the axis and across it. */
+static brc_status ring(brc_context *context, const brc_shape *shape, int32_t n, brc_convex *out, brc_rigid *rigid)
+{
+    const int a = shape->axis, b = (a + 1) % 3, c = (a + 2) % 3;
+    /* Pappus: a piece has the tube's area in the middle between its planes, cos(pi / n) of that in them, times its way
+     * there, 2 tan(pi / n) cos(pi / n) of the radius in them */
+    const double radius = shape->radius * 2.0 * PI / (n * sin(2.0 * PI / n)), tube = shape->radius2 * swell_of(n);
+    const int64_t caps = 2 * most_parts(n);
+    int32_t *cap = NULL;
+    brc_status status = begin(context, n, 2 * (int64_t)n, n + caps, 4 * (int64_t)n + 2 * (n + caps), out);
+    if (status != BRC_OK) goto cleanup;
+    BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &cap, n, "corners of a cap"));
+    for (int32_t p = 0; p < n; ++p) {
+        out->face_start[p + 1] = out->face_start[p];
+        for (int32_t k = 0; k < 2 * n; ++k) {
+            const double turn = 2.0 * PI * ((p + k / n) % n) / n, around = 2.0 * PI * (k % n + 0.5) / n,
+                         from_axis = radius + tube * cos(around);
+            double *x = out->corner + 3 * (2 * (int64_t)n * p + k);
+            x[a] = shape->origin[a] + tube * sin(around);
+            x[b] = shape->origin[b] + from_axis * cos(turn);
+            x[c] = shape->origin[c] + from_axis * sin(turn);
+        }
+        for (int32_t k = 0; k < n; ++k) {
+            const int32_t next = (k + 1) % n, side[4] = {k, n + k, n + next, next};
+            add_face(out, p, side, 4);
+        }
+        for (int end = 0; end < 2; ++end) {
+            for (int32_t k = 0; k < n; ++k)
+                cap[k] = end ? n + (n - 1 - k) : k;
+            add_face(out, p, cap, n);
+        }
+    }
+    finish(out);
+    const double big = shape->radius * shape->radius, small = shape->radius2 * shape->radius2;
+    *rigid = (brc_rigid){.volume = 2.0 * PI * PI * shape->radius * small};
+    memcpy(rigid->centre, shape->origin, sizeof rigid->centre);
+    rigid->inertia[a] = rigid->volume * (big + 0.75 * small);
+    rigid->inertia[b] = rigid->inertia[c] = rigid->volume * (0.5 * big + 0.625 * small);
+cleanup:
+    brc_memory_free(cap);
+    return status;
+}
+
 /* The polyhedron behind the planes n . x = 1 of the vertices n of an icosphere: a face a vertex, a corner a
  * triangle. */
 static brc_status vertex_planes(brc_context *context, const brc_icosphere *s, brc_convex *out)
 {
     int32_t *of_vertex = NULL, *start = NULL; /* triangles round each vertex */
-    BRC_TRY(begin(context, s->n_triangles, s->n_vertices, 3 * (int64_t)s->n_triangles, out));
+    BRC_TRY(begin(context, 1, s->n_triangles, s->n_vertices, 3 * (int64_t)s->n_triangles, out));
     brc_status status = BRC_ALLOCATE(context, &of_vertex, 3 * (int64_t)s->n_triangles, "triangles of an icosphere");
     if (status != BRC_OK) goto cleanup;
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(context, &start, s->n_vertices + 2, "triangles of an icosphere"));
@@ -195,7 +254,7 @@ static brc_status vertex_planes(brc_context *context, const brc_icosphere *s, br
                 want = corner[(at + 2) % 3];
                 break;
             }
-        add_face(out, loop, m);
+        add_face(out, 0, loop, m);
     }
     finish(out);
 cleanup:
@@ -235,10 +294,10 @@ static brc_status convex_mesh(brc_context *context, const brc_mesh *mesh, brc_co
     const int32_t *corners;
     int32_t n_vertices;
     const double(*vertex)[3] = brc_mesh_vertices(mesh, &n_vertices);
-    BRC_TRY(begin(context, n_vertices, (int32_t)n, 3 * n, out));
+    BRC_TRY(begin(context, 1, n_vertices, (int32_t)n, 3 * n, out));
     memcpy(out->corner, vertex, (size_t)n_vertices * sizeof *vertex);
     for (int64_t t = 0; t < n; ++t)
-        if (brc_mesh_triangle(mesh, t, &corners)) add_face(out, corners, 3);
+        if (brc_mesh_triangle(mesh, t, &corners)) add_face(out, 0, corners, 3);
     finish(out);
     brc_convex_mass(out, 0, rigid);
     return BRC_OK;
@@ -310,6 +369,8 @@ brc_status brc_convex_of_shape(brc_context *context, const brc_shape *shape, int
         status = box(context, shape, &made, rigid);
     else if (shape->kind == BRC_SHAPE_CYLINDER || shape->kind == BRC_SHAPE_CONE)
         status = frustum(context, shape, facets, &made, rigid);
+    else if (shape->kind == BRC_SHAPE_TORUS)
+        status = ring(context, shape, facets, &made, rigid);
     else if (shape->kind == BRC_SHAPE_SPHERE)
         status = sphere(context, shape, facets, &made, rigid);
     else if (mesh && brc_mesh_is_convex(mesh))

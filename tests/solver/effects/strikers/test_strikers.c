@@ -255,7 +255,7 @@ static void mass_and_inertia_are_those_of_the_shape(void **state)
 }
 
 /* Pieces of all strikers stand in one list, in their own frames; a plane is one face through its point, a ball keeps
- * its radius, a ring is many cells. */
+ * its radius, a ring is many pieces. */
 static void pieces_of_all_strikers_stand_in_one_list(void **state)
 {
     (void)state;
@@ -310,13 +310,14 @@ static void a_shape_that_cannot_be_made_is_named(void **state)
 {
     (void)state;
     bench_case c;
-    const brc_status status =
-        try_case(&c, (case_options){.no_contact = true,
-                                    .materials = STEEL,
-                                    .fill = FILL,
-                                    .stages = STAGE("1"),
-                                    .gravity = STRIKERS("  ring: {shape: {torus: {radius: 2 m, tube: 0.5 m, centre: "
-                                                        "[50 m, 0, 0]}}, facets: 12, material: steel}\n")});
+    const brc_status status = try_case(
+        &c, (case_options){.no_contact = true,
+                           .materials = STEEL,
+                           .fill = FILL,
+                           .stages = STAGE("1"),
+                           .gravity = STRIKERS("  ring: {shape: {parts: [{role: add, shape: {torus: {radius: 2 m, "
+                                               "tube: 0.5 m, centre: [50 m, 0, 0]}}}]}, facets: 12, material: "
+                                               "steel}\n")});
     assert_int_equal(status, BRC_BAD_INPUT);
     assert_non_null(strstr(brc_context_message(c.context), "striker 'ring'"));
     assert_non_null(strstr(brc_context_message(c.context), "more facets"));
