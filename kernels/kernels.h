@@ -40,7 +40,6 @@
 #include "models/published/published.cl"
 #include "models/cbm/cbm.cl"
 #include "effects/fracture/fracture.cl"
-#include "models/cbm/cbm_breaks.cl"
 #include "effects/fracture/cells.cl"
 #include "models/dlsm/dlsm_elements.cl"
 #include "models/dlsm/dlsm_held.cl"
@@ -70,6 +69,7 @@
 #include "models/cbm/beam_alone.cl"
 #include "models/cbm/beam_bridges.cl"
 #include "models/cbm/beam_closure.cl"
+#include "models/cbm/cbm_breaks.cl"
 
 /* Passes are compiled twice from one text: over all elements ... */
 #define PASS(name) name

@@ -12,10 +12,10 @@
  * factor, a little less [-]. While the sum of stress_bound over the members is below limit_margin times weight the
  * element cannot fail. near [n / W]: the last step in which some member of an element of the group had by itself a
  * bound of near_margin [n] or more, the smallest limit_margin of that member and its neighbours [-]: without one the
- * mean is below it too. factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of an element;
- * only read if weighted. plane [slot][3][C]: the normal of the interface that a bond lies in, out of the own element,
- * in the undeformed body, else 0; only read if joined; turned [n][4]: orientations of the elements; only read if it has
- * FRACTURE_TURNS. */
+ * mean is below it too. factor [slot][C], weakest [n]: of the strength of each bond, and the smallest of those that are
+ * left to an element; only read if weighted. plane [slot][3][C]: the normal of the interface that a bond lies in, out
+ * of the own element, in the undeformed body, else 0; only read if joined; turned [n][4]: orientations of the elements;
+ * only read if it has FRACTURE_TURNS. */
 
 #define RECORD 8
 /* Component 0 of a row or of a lane of rows; the next are C further on. */
@@ -377,6 +377,20 @@ LAW coeff fracture_weight(int e, OWN(int) row_start, OWN(int) neighbour, GATHER(
     return sum;
 }
 
+/* The weakest of the bonds that are left to an element decides how near to failure it may come. */
+LAW void fracture_raise(int e, OWN(int) row_start, OWN(int) neighbour, OWN(coeff) factor, UPDATE(coeff) weakest,
+                        UPDATE(coeff) limit_margin)
+{
+    coeff least = REAL(-1);
+    for (int slot = row_start[e / C]; slot < row_start[e / C + 1]; ++slot) {
+        const brc_size entry = (brc_size)slot * C + e % C;
+        if (neighbour[entry] != e && (least < 0 || factor[entry] < least)) least = factor[entry];
+    }
+    if (!(least > weakest[e])) return;
+    limit_margin[e] *= least / weakest[e];
+    weakest[e] = least;
+}
+
 /* What a beam does to element i, and its energy [J]; only called with a constant `finite`. */
 typedef struct {
     cbm_end end;
@@ -401,7 +415,8 @@ KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, O
                            GATHER(coeff) beam_of, int finite, OWN(state) mass, OWN(state) inertia, UPDATE(state) force,
                            UPDATE(state) torque, UPDATE(state) velocity, UPDATE(state) spin, PUT(int) break_step,
                            PUT(int) break_mode, PUT(coeff) break_stress, PUT(coeff) break_energy, UPDATE(state) lost,
-                           UPDATE(state) broken)
+                           UPDATE(state) broken, int weighted, OWN(coeff) factor, UPDATE(coeff) weakest,
+                           UPDATE(coeff) limit_margin)
 {
     FOR_EACH_ITEM(group, n_groups) {
         const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group), first = group * W;
@@ -429,6 +444,7 @@ KERNEL void fracture_break(int n_groups, int level, int step, state half_kick, O
         neighbour[entry + 0x##l] = e;                                                                                  \
         inv_length[entry + 0x##l] = 0;                                                                                 \
         if (level == 1) weight[e] = fracture_weight(e, row_start, neighbour, record);                                  \
+        if (weighted) fracture_raise(e, row_start, neighbour, factor, weakest, limit_margin);                          \
         break_step[entry + 0x##l] = step;                                                                              \
         break_mode[entry + 0x##l] = choice[by] % 4;                                                                    \
         break_stress[entry + 0x##l] = measure[by];                                                                     \

@@ -127,13 +127,12 @@ typedef struct {
     lane_sym3 virial; /* its parts off the diagonal twice, cbm_virial_of */
     lane energy;
 } closure_sum;
-LAW closure_sum closure_sum_of(int group, int bits, OWN(int) row_start, OWN(int) other, OWN(int) bears,
+LAW closure_sum closure_sum_of(int group, int bits, cbm_own own, OWN(int) row_start, OWN(int) other, OWN(int) bears,
                                OWN(coeff) branch, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
                                coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean,
                                OWN(coeff) slip)
 {
     const int slice = SLICE_OF(group), lane0 = FIRST_LANE_OF(group);
-    const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
     const lane zero = LANE_ZERO;
     closure_sum sum = {{zero, zero, zero}, {zero, zero, zero}, {zero, zero, zero, zero, zero, zero}, zero};
     const int begin = row_start[slice];
@@ -155,8 +154,9 @@ LAW closure_sum closure_group(int group, int bits, OWN(int) row_start, OWN(int) 
                               coeff bend, coeff twist, GATHER(coeff) beam_of, int leans, OWN(coeff) lean,
                               OWN(coeff) slip)
 {
+    const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
 #define SUM(leans)                                                                                                     \
-    closure_sum_of(group, bits, row_start, other, bears, branch, displacement, orientation, axial, bend, twist,        \
+    closure_sum_of(group, bits, own, row_start, other, bears, branch, displacement, orientation, axial, bend, twist,   \
                    beam_of, leans, lean, slip)
     return leans & CLOSURE_GRIPS ? SUM(CLOSURE_LEANS | CLOSURE_GRIPS) : leans ? SUM(CLOSURE_LEANS) : SUM(0);
 #undef SUM

@@ -25,21 +25,32 @@ LAW cbm_end_virial cbm_group_force_virial(int group, OWN(int) row_start, OWN(int
     return sum;
 }
 
-/* As cbm_force_pass, and the records. */
+/* As cbm_force_pass, and the records. shuts: broken beams whose ends bear on each other only push along their axes
+ * (beam_closure.cl, no leans), and are added here, where their group is at hand. */
 KERNEL void fracture_force(int n_groups, OWN(int) row_start, OWN(int) neighbour, OWN(int) ahead, OWN(coeff) branch,
                            OWN(coeff) inv_length, GATHER(state) displacement, GATHER(state) orientation, coeff axial,
                            coeff bend, coeff twist, GATHER(coeff) beam_of, coeff inv_tension, coeff inv_compression,
-                           coeff inv_shear, int drucker_prager, coeff slope, int finite, PUT(state) force,
-                           PUT(state) torque, UPDATE(coeff) record, PUT(coeff) stress_bound)
+                           coeff inv_shear, int drucker_prager, coeff slope, int finite, int shuts, OWN(int) rubs,
+                           OWN(int) other, OWN(int) bears, PUT(state) force, PUT(state) torque, UPDATE(coeff) record,
+                           PUT(coeff) stress_bound)
 {
     FOR_EACH_GROUP(group, n_groups)
     {
         cbm_ask_ahead(group, displacement, orientation, ahead);
-        const cbm_end_virial sum =
-            finite ? cbm_group_force_virial(group, row_start, neighbour, branch, inv_length, displacement, orientation,
-                                            axial, bend, twist, beam_of, 1)
-                   : cbm_group_force_virial(group, row_start, neighbour, branch, inv_length, displacement, orientation,
-                                            axial, bend, twist, beam_of, 0);
+        const int bits = shuts ? rubs[group] : 0;
+        cbm_end_virial sum = finite ? cbm_group_force_virial(group, row_start, neighbour, branch, inv_length,
+                                                             displacement, orientation, axial, bend, twist, beam_of, 1)
+                                    : cbm_group_force_virial(group, row_start, neighbour, branch, inv_length,
+                                                             displacement, orientation, axial, bend, twist, beam_of, 0);
+        if (bits) {
+            const cbm_own own = cbm_own_of(group, displacement, orientation, 1);
+            const closure_sum more = closure_sum_of(group, bits, own, row_start, other, bears, branch, displacement,
+                                                    orientation, axial, bend, twist, beam_of, 0, branch, branch);
+            const lane_sym3 v = cbm_virial_of(more.virial);
+            sum.end.force = lane_vec3_add(sum.end.force, more.force);
+            sum.virial = (lane_sym3){sum.virial.xx + v.xx, sum.virial.yy + v.yy, sum.virial.zz + v.zz,
+                                     sum.virial.yz + v.yz, sum.virial.xz + v.xz, sum.virial.xy + v.xy};
+        }
         state_store3(force, group * W, sum.end.force);
         state_store3(torque, group * W, sum.end.torque);
         const failure_scale scale = {inv_tension, inv_compression, inv_shear, drucker_prager, slope};

@@ -50,6 +50,18 @@ static brc_status upload_near(brc_simulation *s, const double *margin, const dou
     return brc_upload_coeff(s, f->near_margin, near_margin, s->layout->n_rows);
 }
 
+/* limit_margin of every row. */
+static void find_margins(const brc_simulation *s, const double *weakest, double *out)
+{
+    double smallest[3];
+    smallest_limits(s, smallest);
+    for (int64_t r = 0; r < s->layout->n_rows; ++r) {
+        const int64_t e = s->layout->element_of_row[r];
+        out[r] = e < 0 ? 1e30 /* rows of no element never fail */
+                       : MARGIN * (weakest ? weakest[r] : 1) * margin_of(s->fracture->limit + 3 * e, smallest);
+    }
+}
+
 static brc_status upload_bounds(brc_simulation *s, const double *weakest)
 {
     brc_breaking *f = s->fracture;
@@ -61,12 +73,11 @@ static brc_status upload_bounds(brc_simulation *s, const double *weakest)
         f->scale[c] = smallest[c] > 0 ? 1 / smallest[c] : 0;
     BRC_LOCAL(s->context, n, double, margin_of_limit, "bounds of stress");
     BRC_LOCAL(s->context, n, double, weight, "bounds of stress");
+    find_margins(s, weakest, margin_of_limit);
     for (int64_t r = 0; r < n; ++r) {
         const int64_t e = s->layout->element_of_row[r];
-        margin_of_limit[r] = 1e30; /* rows of no element never fail */
         weight[r] = 1;
         if (e < 0) continue;
-        margin_of_limit[r] = MARGIN * (weakest ? weakest[r] : 1) * margin_of(f->limit + 3 * e, smallest);
         weight[r] = brc_fracture_volume(d, e);
         for (int64_t h = d->row_start[e]; s->scene->fracture.level > 0 && h < d->row_start[e + 1]; ++h)
             weight[r] += brc_fracture_volume(d, d->neighbour[h]);
@@ -108,6 +119,29 @@ static brc_status upload_factors(brc_simulation *s, const brc_strengths *strengt
         if (!isfinite((*weakest)[r])) (*weakest)[r] = 1; /* no bonds */
     BRC_TRY(brc_upload_coeff(s, f->factor, factor, entries));
     return brc_upload_coeff(s, f->weakest, *weakest, n);
+}
+
+brc_status brc_fracture_raise_bounds(brc_simulation *s)
+{
+    const brc_breaking *f = s->fracture;
+    const int64_t n = s->layout->n_rows, slice = s->layout->slice, entries = s->layout->n_slots * slice;
+    if (!f->record || !f->weighted) return BRC_OK;
+    BRC_LOCAL(s->context, entries, int32_t, neighbour, "bounds of stress");
+    BRC_LOCAL(s->context, entries, double, factor, "bounds of stress");
+    BRC_LOCAL(s->context, n, double, weakest, "bounds of stress");
+    BRC_LOCAL(s->context, n, double, margin, "bounds of stress");
+    BRC_TRY(brc_buffer_read(brc_neighbour_of(s), 0, neighbour, 4 * entries));
+    BRC_TRY(brc_download(s, f->factor, brc_coeff_bytes(s), factor, entries));
+    BRC_TRY(brc_download(s, f->weakest, brc_coeff_bytes(s), weakest, n)); /* stays where no bond is left */
+    for (int64_t r = 0; r < n; ++r) {
+        double least = INFINITY;
+        for (int64_t slot = s->layout->slot_start[r / slice]; slot < s->layout->slot_start[r / slice + 1]; ++slot)
+            if (neighbour[slot * slice + r % slice] != r) least = fmin(least, factor[slot * slice + r % slice]);
+        if (isfinite(least)) weakest[r] = least;
+    }
+    find_margins(s, weakest, margin);
+    BRC_TRY(brc_upload_coeff(s, f->weakest, weakest, n));
+    return brc_upload_coeff(s, f->limit_margin, margin, n);
 }
 
 brc_status brc_fracture_planes(brc_simulation *s, const uint8_t *lies, double *plane)

@@ -56,6 +56,8 @@ double brc_fracture_volume(const brc_domain *domain, int64_t e);
 brc_status brc_fracture_ratio(brc_simulation *s, double *out);
 /* Strengths of bonds, and bounds of stress (fracture_bound.c); the limits of the elements are there. */
 brc_status brc_fracture_bound(brc_simulation *s);
+/* The weakest bonds that are left to the elements, and bounds by them, once it was loaded which ones are broken. */
+brc_status brc_fracture_raise_bounds(brc_simulation *s);
 /* A stage begins. */
 brc_status brc_fracture_begin_stage(brc_simulation *s);
 /* What broke, and what that changed. */

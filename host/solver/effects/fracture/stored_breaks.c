@@ -130,7 +130,8 @@ cleanup:
 brc_status brc_fracture_store_stretch(brc_simulation *s, brc_state_store *store)
 {
     BRC_TRY(walk_tables(s, store, NULL, NULL));
-    return store->field(store, brc_neighbour_of(s));
+    BRC_TRY(store->field(store, brc_neighbour_of(s)));
+    return store->loading ? brc_fracture_raise_bounds(s) : BRC_OK;
 }
 
 brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
@@ -146,7 +147,8 @@ brc_status brc_fracture_store_state(brc_simulation *s, brc_state_store *store)
         BRC_TRY_OR(cleanup, point_home(s, &bonds));
     }
     BRC_TRY_OR(cleanup, walk_arrays(s, store, &bonds));
-    if (s->model->cohesion) status = s->model->cohesion->store(s, store, &bonds);
+    if (s->model->cohesion) BRC_TRY_OR(cleanup, s->model->cohesion->store(s, store, &bonds));
+    if (store->loading) status = brc_fracture_raise_bounds(s);
 cleanup:
     brc_memory_free(bonds.id);
     return status;

@@ -5,6 +5,10 @@
 
 enum { LEAN = 7, SLIP = 5, CLOSURE_BITS = 31, LEANS = 1, GRIPS = 2 }; /* beam_closure.cl */
 
+/* Ends that only push are looked at in one of these steps for whether they stand clear: far from that they bear
+ * nothing any more. */
+static const int32_t every = 4;
+
 struct brc_beam_closure {
     brc_pass *force, *energy, *virial, *move, *begin;
     brc_buffer *other, *twin, *bears; /* [n_slots][C] */
@@ -105,10 +109,18 @@ void brc_beam_closure_free(brc_simulation *s)
 
 /* ---- an evaluation ---- */
 
+bool brc_beam_closure_within(const brc_simulation *s, brc_buffer **rubs, brc_buffer **other, brc_buffer **bears)
+{
+    const beam_closure *f = closure_of(s);
+    if (!acts(s) || f->leans) return false;
+    *rubs = f->rubs, *other = f->other, *bears = f->bears;
+    return true;
+}
+
 brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r)
 {
     const beam_closure *f = closure_of(s);
-    if (!acts(s)) return BRC_OK;
+    if (!acts(s) || !f->leans) return BRC_OK;
     return brc_pass_run_on(f->force, s->n_groups, r, NULL, NULL);
 }
 
@@ -126,7 +138,7 @@ brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial)
 brc_status brc_beam_closure_move(brc_simulation *s)
 {
     const beam_closure *f = closure_of(s);
-    if (!acts(s)) return BRC_OK;
+    if (!acts(s) || (!f->leans && brc_fracture_moment(s) % every != 0)) return BRC_OK;
     return BRC_RUN(f->move, s->n_groups, {"step", BRC_INT((int32_t)brc_fracture_moment(s))},
                    {"clear", BRC_COEFF(BRC_BEAM_CLEAR)}, {"friction", BRC_COEFF(brc_scene_side_friction(s->scene))});
 }

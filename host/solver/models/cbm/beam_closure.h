@@ -12,8 +12,11 @@ extern const brc_field_table brc_beam_closure_fields;
 brc_status brc_beam_closure_create(brc_simulation *s);
 void brc_beam_closure_free(brc_simulation *s);
 
-/* What broken beams bear of an evaluation: after fracture_force, after cbm_energy, after cbm_virial (virial
- * [n_rows][6]), each after what softening takes off. */
+/* Whether fracture_force adds what broken beams bear, which then only push along their axes, with its arguments of the
+ * same names; else NULL. */
+bool brc_beam_closure_within(const brc_simulation *s, brc_buffer **rubs, brc_buffer **other, brc_buffer **bears);
+/* What broken beams bear of an evaluation: after fracture_force, where that does not add it, after cbm_energy, after
+ * cbm_virial (virial [n_rows][6]), each after what softening takes off. */
 brc_status brc_beam_closure_force(brc_simulation *s, const brc_force_request *r);
 brc_status brc_beam_closure_energy(brc_simulation *s);
 brc_status brc_beam_closure_virial(brc_simulation *s, brc_buffer *virial);

@@ -82,7 +82,7 @@ brc_status brc_cbm_create_fracture(brc_simulation *s)
                     breaks = brc_scope_of_breaks(s, &run), criterion = brc_scope_of_criterion(s, &breaks),
                     evaluation = brc_scope_of_criterion(s, &request);
     BRC_TRY(BRC_PASSES(s, &criterion, BRC_PASS(&own->break_pass, "fracture_break", "level step half_kick")));
-    BRC_TRY(BRC_PASSES(s, &evaluation, BRC_PASS(&own->breaking_force, "fracture_force", NULL)));
+    BRC_TRY(BRC_PASSES(s, &evaluation, BRC_PASS(&own->breaking_force, "fracture_force", "shuts rubs other bears")));
     BRC_TRY(brc_beam_alone_create(s));
     BRC_TRY(brc_beam_bridges_create(s));
     return brc_beam_closure_create(s);
@@ -90,7 +90,11 @@ brc_status brc_cbm_create_fracture(brc_simulation *s)
 
 brc_status brc_cbm_breaking_force(brc_simulation *s, const brc_force_request *r)
 {
-    BRC_TRY(brc_pass_run_awake(s, brc_cbm_own_of(s)->breaking_force, s->n_groups, r, NULL));
+    brc_buffer *rubs = NULL, *other = NULL, *bears = NULL;
+    const bool shuts = brc_beam_closure_within(s, &rubs, &other, &bears);
+    BRC_TRY(brc_pass_run_awake(s, brc_cbm_own_of(s)->breaking_force, s->n_groups, r,
+                               BRC_GIVEN({"shuts", BRC_INT(shuts)}, {"rubs", BRC_BUF(rubs)}, {"other", BRC_BUF(other)},
+                                         {"bears", BRC_BUF(bears)})));
     BRC_TRY(brc_beam_softening_force(s, r));
     return brc_beam_closure_force(s, r);
 }

@@ -27,6 +27,6 @@ brc_status brc_cbm_strain_stress(brc_simulation *s, double *strain, double *stre
 int brc_cbm_step_passes(const brc_simulation *s, brc_step_pass out[BRC_STEP_PASSES])
 {
     const brc_cbm_own *own = brc_cbm_own_of(s);
-    out[0] = (brc_step_pass){s->fracture ? own->breaking_force : own->force, NULL};
+    out[0] = (brc_step_pass){s->fracture ? own->breaking_force : own->force, "rubs other bears"};
     return 1 + brc_fracture_step_passes(s, out + 1);
 }
