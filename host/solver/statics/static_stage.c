@@ -1,8 +1,10 @@
 /* A static stage: its increments, or its events. */
 #include "statics_internal.h"
 #include "../run/look.h"
+#include "settling.h"
 #include "static_events.h"
 #include <math.h>
+#include <string.h>
 
 /* Start from the last move again, `share` times as far: exact when the answer is proportional to the load, so that a
  * stage of equal increments costs little more than one. v->before holds the displacement before the last move on entry,
@@ -59,22 +61,53 @@ static brc_status reach(brc_simulation *s, brc_static_run *run, double from, dou
     return in_parts ? brc_buffer_copy(v->before, brc_displacement_of(s), brc_buffer_bytes(v->before)) : BRC_OK;
 }
 
+/* The first equilibrium of a stage, from what may be out of balance. */
+static brc_status reach_first(brc_simulation *s, brc_static_run *run, double to, brc_progress *progress)
+{
+    BRC_ENDS_WITH(brc_settling_free) brc_settling settling = {0};
+    BRC_TRY(brc_settling_begin(s, &run->vectors, &settling));
+    BRC_TRY(reach(s, run, 0, to, false, progress));
+    return brc_settling_end(s, &settling);
+}
+
+/* The load that brings the ratio of failure to `asked`, by load and ratio now and before (0: none): in proportion; in
+ * gravity, which is there whatever the load, along the line through both. */
+static double next_load(bool weighs, double asked, const double before[2], const double now[2])
+{
+    if (!weighs || !(before[0] > 0)) return now[0] * asked / now[1];
+    return now[0] + (asked - now[1]) * (now[0] - before[0]) / (now[1] - before[1]);
+}
+
+static brc_status refuse_weight(brc_context *context, const brc_stage *stage, const double now[2])
+{
+    return BRC_FAIL(context, BRC_BAD_INPUT,
+                    "stage '%s': to_failure scales the loads of the stage and not gravity: at %.4g times them the "
+                    "worst element is at %.4g of its limit, and no load brings it to %.4g; use a smaller gravity, a "
+                    "load that breaks the body, or a dynamic stage",
+                    stage->name, now[0], now[1], stage->to_failure);
+}
+
 /* Scale the load so that the worst element of all parts is at the asked fraction of its limit: in proportion, and again
  * from where that led, since limits see strains of second order, which do not grow as the load. */
 static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
 {
     enum { MOST_SCALINGS = 12 };
-    static const double near = 1e-6; /* of the fraction asked for: below what any strength is known to */
+    static const double near = 1e-6, /* of the fraction asked for: below what any strength is known to */
+        most_at_once = 1e3;          /* along a line: of loads that do not matter */
     brc_context *context = part[0]->context;
     const brc_stage *stage = brc_current_stage(part[0]);
-    double ratio;
+    double ratio, before[2] = {0, 0};
     BRC_TRY(brc_statics_failure(n, part, &ratio));
     if (!(ratio > 0))
         return BRC_FAIL(context, BRC_BAD_INPUT,
                         "stage '%s': under its load no element comes nearer to failure, so to_failure cannot scale it",
                         stage->name);
     for (int i = 0; i < MOST_SCALINGS && !(fabs(ratio / stage->to_failure - 1) <= near); ++i) {
-        const double by = stage->to_failure / ratio;
+        const double now[2] = {brc_loads_time(part[0]), ratio},
+                     by = next_load(part[0]->scene->has_gravity, stage->to_failure, before, now) / now[0];
+        if (!(by > 0) || (before[0] > 0 && part[0]->scene->has_gravity && by > most_at_once))
+            return refuse_weight(context, stage, now);
+        memcpy(before, now, sizeof before);
         for (int32_t k = 0; k < n; ++k) {
             BRC_TRY(brc_statics_scale(part[k], &run[k].vectors, by));
             brc_clock_set_load(part[k], brc_loads_time(part[k]) * by);
@@ -112,8 +145,12 @@ static brc_status begin_runs(int32_t n, brc_simulation *const *part, brc_static_
     for (int32_t k = 0; k < n; ++k) {
         brc_simulation *s = part[k];
         if (!resumed) {
+            brc_ledger before;
             s->statics->report = (brc_static_report){0};
+            BRC_TRY(brc_simulation_ledger(s, &before));
+            s->statics->released += before.kinetic;
             BRC_TRY(brc_buffer_fill_zero(brc_velocity_of(s)));
+            if (s->model->turns) BRC_TRY(brc_buffer_fill_zero(brc_spin_of(s)));
         }
         BRC_TRY(brc_solve_vectors_create(s, &run[k].vectors));
         s->statics->stage = &run[k];
@@ -146,7 +183,10 @@ static brc_status run_increments(int32_t n, brc_simulation *const *part, brc_sta
     const int32_t increments = stage->increments > 0 ? stage->increments : 1;
     for (int32_t i = (int32_t)brc_simulation_step(part[0]) + 1; i <= increments && !brc_stage_has_ended(part[0]); ++i) {
         for (int32_t k = 0; k < n; ++k) { /* one after the other: they share the device's memory and threads */
-            BRC_TRY(reach(part[k], &run[k], (double)(i - 1) / increments, (double)i / increments, i > 1, progress));
+            if (i == 1)
+                BRC_TRY(reach_first(part[k], &run[k], 1.0 / increments, progress));
+            else
+                BRC_TRY(reach(part[k], &run[k], (double)(i - 1) / increments, (double)i / increments, true, progress));
             brc_clock_set_step(part[k], i);
         }
         BRC_TRY(brc_look_here(part[0], i - 1));

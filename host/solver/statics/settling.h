@@ -1,0 +1,23 @@
+/* What a static stage lets go of as it begins (docs/notebook/theory.md T4). A body that is not in balance at its load
+ * factor 0, in gravity, after a dynamic stage or because loads were taken off, does not swing but is led to rest: its
+ * kinetic energy is lost, and half of what its unbalanced forces do up to the first equilibrium, on the way to which
+ * they fall to nothing in proportion. */
+#ifndef BRC_SOLVER_SETTLING_H
+#define BRC_SOLVER_SETTLING_H
+
+#include "statics_internal.h"
+
+/* Unbalanced forces and where the elements stand, by elements; host, zeros at first. */
+typedef struct brc_settling {
+    double *force, *torque; /* [n_elements][3] [N], [N m] */
+    double *place;          /* [n_elements][3] displacements [m] */
+    double *orientation;    /* [n_elements][4] */
+} brc_settling;
+
+/* At the load factor 0, before the first solve. */
+brc_status brc_settling_begin(brc_simulation *s, const brc_solve_vectors *v, brc_settling *out);
+/* At the first equilibrium: into what statics released. */
+brc_status brc_settling_end(brc_simulation *s, const brc_settling *from);
+void brc_settling_free(brc_settling *settling);
+
+#endif
