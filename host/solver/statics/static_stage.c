@@ -70,12 +70,12 @@ static brc_status reach_first(brc_simulation *s, brc_static_run *run, double to,
     return brc_settling_end(s, &settling);
 }
 
-/* The load that brings the ratio of failure to `asked`, by load and ratio now and before (0: none): in proportion; in
+/* Times what load the ratio of failure comes to `asked`, by load and ratio now and before (0: none): in proportion; in
  * gravity, which is there whatever the load, along the line through both. */
-static double next_load(bool weighs, double asked, const double before[2], const double now[2])
+static double scaling(bool weighs, double asked, const double before[2], const double now[2])
 {
-    if (!weighs || !(before[0] > 0)) return now[0] * asked / now[1];
-    return now[0] + (asked - now[1]) * (now[0] - before[0]) / (now[1] - before[1]);
+    if (!weighs || !(before[0] > 0)) return asked / now[1];
+    return 1 + (asked - now[1]) * (1 - before[0] / now[0]) / (now[1] - before[1]);
 }
 
 static brc_status refuse_weight(brc_context *context, const brc_stage *stage, const double now[2])
@@ -104,7 +104,7 @@ static brc_status go_to_failure(int32_t n, brc_simulation *const *part, brc_stat
                         stage->name);
     for (int i = 0; i < MOST_SCALINGS && !(fabs(ratio / stage->to_failure - 1) <= near); ++i) {
         const double now[2] = {brc_loads_time(part[0]), ratio},
-                     by = next_load(part[0]->scene->has_gravity, stage->to_failure, before, now) / now[0];
+                     by = scaling(part[0]->scene->has_gravity, stage->to_failure, before, now);
         if (!(by > 0) || (before[0] > 0 && part[0]->scene->has_gravity && by > most_at_once))
             return refuse_weight(context, stage, now);
         memcpy(before, now, sizeof before);
