@@ -52,6 +52,10 @@ def main():
                           + stage("hold", "static: {}", held, still) + stage("rest", "dynamic: {duration: 20 us}", held, pull + "}"))
             got = closes(folder, f"{name}-swung", said, 2e-3)
             assert got["kinetic_J"] < 1e-6 * got["elastic_J"], got
+            # The same into a stage of events.
+            _, said = run(folder, f"{name}-torn", ROCK + body + "fracture: {}\nstages:\n" + stage("swing", "dynamic: {duration: 30 us}", held, pull + "}")
+                          + stage("tear", "static: {events: 3}", held, pull + "}"))
+            closes(folder, f"{name}-torn", said, 1e-3)
         # 10 cm of 2650 kg/m^3 at 20 000 m/s^2 pull the uppermost cells, whose middles are 1 mm down, by 5.25 MPa; 2.75 of 8 MPa are left to
         # the end, less what uneven cells make of it, some 2 %.
         hung = ROCK + CELLS + "fracture: {}\ngravity: [0, 0, -%d m/s^2]\nstages:\n"

@@ -1,5 +1,6 @@
 /* The order of failures of a body that is loaded so slowly that nothing moves. */
 #include "static_events.h"
+#include "settling.h"
 #include "../effects/fracture/breaking.h"
 #include "../effects/loads/loads.h"
 #include "../run/look.h"
@@ -229,6 +230,25 @@ static brc_status tell_pause(const events *v)
                     (long long)brc_simulation_step(s), (int)v->stage->most_events);
 }
 
+/* All of the load at once, from what may be out of balance. */
+static brc_status first_equilibrium(events *v)
+{
+    brc_settling *from = NULL;
+    brc_status status = BRC_OK;
+    BRC_TRY(BRC_ALLOCATE(v->context, &from, v->n, "unbalanced forces"));
+    for (int32_t k = 0; status == BRC_OK && k < v->n; ++k) {
+        status = brc_settling_begin(v->part[k], &v->run[k].vectors, &from[k]);
+        brc_clock_set_load(v->part[k], 1);
+    }
+    if (status == BRC_OK) status = solve_all(v);
+    for (int32_t k = 0; k < v->n; ++k) {
+        if (status == BRC_OK) status = brc_settling_end(v->part[k], &from[k]);
+        brc_settling_free(&from[k]);
+    }
+    brc_memory_free(from);
+    return status;
+}
+
 brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_static_run *run, brc_progress *progress)
 {
     brc_simulation *s = part[0];
@@ -248,9 +268,7 @@ brc_status brc_static_events_run(int32_t n, brc_simulation *const *part, brc_sta
         for (int32_t l = 0; l < brc_current_stage(part[k])->n_loads; ++l)
             v.moves |= is_motion(&brc_current_stage(part[k])->loads[l]);
     BRC_TRY(BRC_ALLOCATE(s->context, &before, n, "events"));
-    for (int32_t k = 0; first == 0 && k < n; ++k)
-        brc_clock_set_load(part[k], 1);
-    if (first == 0) BRC_TRY_OR(cleanup, solve_all(&v));
+    if (first == 0) BRC_TRY_OR(cleanup, first_equilibrium(&v));
     for (int32_t event = first; !brc_stage_has_ended(s); ++event) {
         double load;
         status = go_to_next(&v, &carries);
