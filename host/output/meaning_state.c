@@ -57,6 +57,7 @@ const brc_meaning brc_meanings_of_checkpoints[] = {
     {"parts/*/peak_elastic", "J", "largest elastic energy at a sample"},
     {"parts/*/peak_kinetic", "J", "largest kinetic energy at a sample"},
     {"parts/*/released", "J", "elastic energy beyond that of broken bonds that events of static stages set free"},
+    {"parts/*/changing", "J", "work of the loads of one static stage, taken off as those of the next are put on"},
     {"parts/*/modes", "rad/s", "angular frequencies of the last modes stage"},
     {"parts/*/regime.broke", "-", "1: a bond has broken"},
     {"parts/*/regime.peak_elastic", "J", "largest elastic energy at a sample of dynamic stages"},

@@ -42,10 +42,24 @@ def main():
             got = closes(folder, f"{name}-hung", said, 1e-3)
             assert abs(got["damping_J"] / (got["elastic_J"] + got["stabilisation_J"]) - 1) < 1e-3, got
             assert abs(got["potential_J"] / got["damping_J"] + 2) < 2e-3, got
-            # Let go: all of it.
+            # The load taken off: it takes back what it gave.
             _, said = run(folder, f"{name}-let-go", ROCK + body + "stages:\n" + stage("pull", "static: {}", held, pull + "}") + stage("free", "static: {}", held))
             got = closes(folder, f"{name}-let-go", said, 1e-3)
-            assert got["elastic_J"] < 1e-6 * got["work_J"] and abs(got["damping_J"] / got["work_J"] - 1) < 1e-3, got
+            peak = got["peak_elastic_J"]
+            assert peak > 0 and abs(got["elastic_J"]) + abs(got["work_J"]) + abs(got["damping_J"]) < 1e-3 * peak, got
+            # Ten times the load, or the end moved ten times as far, from one stage to the next: nothing is lost, and the next stage goes on.
+            moved = held.replace("z+", "z-").replace("z: 0}", "z: %g um")
+            for kind, loads in (("load", (pull + "}", pull.replace("z: -1", "z: -10") + "}")), ("end", (moved % -1 + "}", moved % -10 + "}"))):
+                _, said = run(folder, f"{name}-more-{kind}", ROCK + body + "stages:\n" + stage("pull", "static: {}", held, loads[0])
+                              + stage("more", "static: {}", held, loads[1]) + stage("rest", "dynamic: {steps: 20}", held, loads[1][:-1] + ", table: [[0 s, 1], [1 s, 1]]}"))
+                got = closes(folder, f"{name}-more-{kind}", said, 1e-3)
+                assert abs(got["damping_J"]) < 1e-3 * got["peak_elastic_J"] and abs(got["initial_J"]) < 1e-3 * got["peak_elastic_J"], got
+                assert abs(got["work_J"] / got["peak_elastic_J"] - 1) < 0.02, got
+            # Swinging, then led to ten times the load: damping takes and gives nothing back.
+            _, said = run(folder, f"{name}-swung-more", ROCK + body + "stages:\n" + stage("swing", "dynamic: {duration: 30 us}", held, pull + "}")
+                          + stage("more", "static: {}", held, pull.replace("z: -1", "z: -10") + "}") + stage("rest", "dynamic: {steps: 20}", held, pull.replace("z: -1", "z: -10") + ", table: [[0 s, 1], [1 s, 1]]}"))
+            got = closes(folder, f"{name}-swung-more", said, 2e-3)
+            assert got["damping_J"] >= 0, got
             # Swinging, then held still: what swung is gone, of spheres that turn too; and nothing moves as the next stage begins.
             still = pull + ", table: [[0, 1], [1, 1]]}"
             _, said = run(folder, f"{name}-swung", ROCK + body + "stages:\n" + stage("swing", "dynamic: {duration: 30 us}", held, pull + "}")

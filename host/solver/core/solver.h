@@ -246,6 +246,12 @@ brc_status brc_statics_create(brc_simulation *s);
 void brc_statics_free(brc_simulation *s);
 /* Elastic energy beyond that of the broken bonds that events of static stages set free [J]. */
 double brc_statics_released(const brc_simulation *s);
+/* The present stage and the one before it, but for modes, are static: the loads of one are taken off as those of the
+ * other are put on. */
+bool brc_statics_go_on(const brc_simulation *s);
+/* Work of such changes [J], and more of it. */
+double brc_statics_changing(const brc_simulation *s);
+void brc_statics_change(brc_simulation *s, double work);
 /* Reports, modes and how far events have come, for a store; and what a stage that runs keeps from increment to
  * increment. */
 brc_status brc_statics_store(brc_simulation *s, brc_state_store *store);

@@ -20,6 +20,7 @@ brc_status brc_simulation_ledger(brc_simulation *s, brc_ledger *out)
     BRC_TRY(brc_force_energies(s, &out->elastic, &out->stabilisation));
     BRC_TRY(lost(s, brc_lost_damping_of(s), &out->damping));
     out->damping += brc_statics_released(s);
+    out->work += brc_statics_changing(s);
     BRC_TRY(lost(s, brc_lost_numerical_of(s), &out->numerical));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_LEDGER, &(brc_occasion){.ledger = out}));
     out->initial = s->run->initial_energy;

@@ -242,8 +242,11 @@ brc_status brc_stage_start(brc_simulation *s)
     BRC_TRY(brc_force_of_state(s, BRC_BOOK_START));
     BRC_TRY(brc_simulation_ledger(s, &after));
     BRC_TRY(brc_hook_run(s, BRC_HOOK_STARTED, &(brc_occasion){.ledger = &after}));
-    s->run->initial_energy +=
-        after.total - s->run->total_before_stage; /* initial fields, and what changed supports hold or release */
+    const double begins = after.total - s->run->total_before_stage; /* initial fields, and what changed supports hold */
+    if (brc_statics_go_on(s))
+        brc_statics_change(s, begins);
+    else
+        s->run->initial_energy += begins;
     s->run->setup_seconds += brc_clock_s() - start;
     return BRC_OK;
 }

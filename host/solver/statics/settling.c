@@ -38,7 +38,10 @@ brc_status brc_settling_end(brc_simulation *s, const brc_settling *from)
         for (int c = 0; c < 3; ++c)
             sum += from->force[3 * e + c] * (place[3 * e + c] - from->place[3 * e + c]) +
                    from->torque[3 * e + c] * turned(from->orientation + 4 * e, orientation + 4 * e, c);
-    s->statics->released += 0.5 * sum;
+    if (sum > 0 && !brc_statics_go_on(s))
+        s->statics->released += 0.5 * sum;
+    else
+        brc_statics_change(s, -0.5 * sum);
     return BRC_OK;
 }
 

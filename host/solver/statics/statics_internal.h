@@ -18,8 +18,9 @@ struct brc_statics {
     int32_t n_known; /* states that a solve may begin from, borrowed */
     const double *const *known;
     double margin, largest_load; /* of the events of a stage; margin 0: none yet */
-    double released;             /* elastic energy beyond that of the broken bonds that events set free, and what
-                                    stages let go of as they began (settling.h) [J] */
+    double released; /* elastic energy beyond that of the broken bonds that events set free, and what stages let go of
+                        as they began (settling.h) [J] */
+    double changing; /* work of the loads of one stage, taken off while those of the next are put on [J] */
 };
 
 /* What stands for K^-1 in the iterations of a stage: multigrid where the body is large enough, else diagonal blocks. */

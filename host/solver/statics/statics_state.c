@@ -42,12 +42,29 @@ const double *brc_simulation_modes(const brc_simulation *s, int32_t *n)
 }
 
 BRC_READ(double, brc_statics_released, s->statics->released)
+BRC_READ(double, brc_statics_changing, s->statics->changing)
+
+bool brc_statics_go_on(const brc_simulation *s)
+{
+    const brc_stage *stage = brc_current_stage(s);
+    if (stage->solver != BRC_SOLVER_STATIC) return false;
+    do
+        if (stage == s->scene->stages) return false;
+    while ((--stage)->solver == BRC_SOLVER_MODES);
+    return stage->solver == BRC_SOLVER_STATIC;
+}
+
+void brc_statics_change(brc_simulation *s, double work)
+{
+    s->statics->changing += work;
+}
 
 brc_status brc_statics_store(brc_simulation *s, brc_state_store *store)
 {
     struct brc_statics *own = s->statics;
     int64_t n_modes = own->n_modes;
     BRC_TRY(brc_store_double(store, "released", &own->released));
+    BRC_TRY(brc_store_double(store, "changing", &own->changing));
     BRC_TRY(brc_store_double(store, "static.residual", &own->report.residual));
     BRC_TRY(brc_store_integer(store, "static.iterations", &own->report.iterations));
     BRC_TRY(brc_store_integer(store, "static.corrections", &own->report.corrections));
