@@ -167,7 +167,8 @@ LAW void closure_add(UPDATE(state) to, int e, coeff x, coeff y, coeff z)
     to[(brc_size)e * 3] += (state)x, to[(brc_size)e * 3 + 1] += (state)y, to[(brc_size)e * 3 + 2] += (state)z;
 }
 
-/* After fracture_force and beam_soft_force: forces, torques and records with what broken beams bear. */
+/* After fracture_force and beam_soft_force, where broken beams may lean or grip (elsewhere fracture_force adds what
+ * they bear): forces, torques and records with it. */
 KERNEL void closure_force(int n_groups, OWN(int) row_start, OWN(int) other, OWN(int) bears, OWN(coeff) branch,
                           GATHER(state) displacement, GATHER(state) orientation, coeff axial, coeff bend, coeff twist,
                           GATHER(coeff) beam_of, int leans, OWN(coeff) lean, OWN(coeff) slip, coeff inv_tension,
