@@ -53,12 +53,12 @@ def main():
                 _, said = run(folder, f"{name}-more-{kind}", ROCK + body + "stages:\n" + stage("pull", "static: {}", held, loads[0])
                               + stage("more", "static: {}", held, loads[1]) + stage("rest", "dynamic: {steps: 20}", held, loads[1][:-1] + ", table: [[0 s, 1], [1 s, 1]]}"))
                 got = closes(folder, f"{name}-more-{kind}", said, 1e-3)
-                assert abs(got["damping_J"]) < 1e-3 * got["peak_elastic_J"] and abs(got["initial_J"]) < 1e-3 * got["peak_elastic_J"], got
-                assert abs(got["work_J"] / got["peak_elastic_J"] - 1) < 0.02, got
+                held_now = got["elastic_J"] + got["stabilisation_J"] + got["kinetic_J"]
+                assert got["damping_J"] == 0 and abs(got["initial_J"]) < 1e-3 * held_now and abs(got["work_J"] / held_now - 1) < 1e-3, got
             # Swinging, then led to ten times the load: damping takes and gives nothing back.
             _, said = run(folder, f"{name}-swung-more", ROCK + body + "stages:\n" + stage("swing", "dynamic: {duration: 30 us}", held, pull + "}")
                           + stage("more", "static: {}", held, pull.replace("z: -1", "z: -10") + "}") + stage("rest", "dynamic: {steps: 20}", held, pull.replace("z: -1", "z: -10") + ", table: [[0 s, 1], [1 s, 1]]}"))
-            got = closes(folder, f"{name}-swung-more", said, 2e-3)
+            got = closes(folder, f"{name}-swung-more", said, 1e-3)
             assert got["damping_J"] >= 0, got
             # Swinging, then held still: what swung is gone, of spheres that turn too; and nothing moves as the next stage begins.
             still = pull + ", table: [[0, 1], [1, 1]]}"
