@@ -246,8 +246,8 @@ brc_status brc_statics_create(brc_simulation *s);
 void brc_statics_free(brc_simulation *s);
 /* Elastic energy beyond that of the broken bonds that events of static stages set free [J]. */
 double brc_statics_released(const brc_simulation *s);
-/* The present stage and the one before it, but for modes, are static: the loads of one are taken off as those of the
- * other are put on. */
+/* The present stage is static or of modes, and the one before it, but for modes, static: the loads of one are taken off
+ * as those of the other are put on. */
 bool brc_statics_go_on(const brc_simulation *s);
 /* Work of such changes [J], and more of it. */
 double brc_statics_changing(const brc_simulation *s);

@@ -47,7 +47,7 @@ BRC_READ(double, brc_statics_changing, s->statics->changing)
 bool brc_statics_go_on(const brc_simulation *s)
 {
     const brc_stage *stage = brc_current_stage(s);
-    if (stage->solver != BRC_SOLVER_STATIC) return false;
+    if (stage->solver == BRC_SOLVER_DYNAMIC) return false;
     do
         if (stage == s->scene->stages) return false;
     while ((--stage)->solver == BRC_SOLVER_MODES);

@@ -55,7 +55,12 @@ static brc_status constrain(brc_simulation *s, const brc_occasion *now)
     return now->rotations ? brc_loads_zero_turned(s, now->rotations) : BRC_OK;
 }
 BRC_CALLED(store, brc_loads_store(s, now->store))
-BRC_CALLED(place, brc_loads_prescribe(s, now->t))
+/* A static stage leads what it prescribes from where it stands; modes move nothing. */
+static brc_status place(brc_simulation *s, const brc_occasion *now)
+{
+    const bool moves = brc_current_stage(s)->solver == BRC_SOLVER_DYNAMIC;
+    return moves ? brc_loads_prescribe(s, now->t) : brc_turns_prescribe(s, now->t);
+}
 BRC_CALLED(open_step, brc_turns_begin_step(s, now->t, now->until))
 BRC_CALLED(close_step, brc_loads_impose_velocity(s, now->t))
 BRC_CALLED(push, brc_pushes_apply(s, now->request))

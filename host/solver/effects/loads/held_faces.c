@@ -10,7 +10,7 @@ typedef struct held_arrays {
     int32_t *bits;          /* [n_free_faces] components */
     int32_t *element, *place, *face_start;
     int32_t *held_of; /* [n_boundary][slice] */
-    double *area, *arm, *spring;
+    double *area, *arm, *spring, *value;
 } held_arrays;
 
 /* Which components of which free faces are held; refuses overlaps. bits: [n_free_faces], zeroed. */
@@ -48,6 +48,7 @@ static brc_status allocate(brc_simulation *s, int32_t n, held_arrays *a)
     BRC_TRY(BRC_ALLOCATE(s->context, &a->face_start, n + 1, "held elements"));
     BRC_TRY(BRC_ALLOCATE(s->context, &a->area, 3 * (int64_t)n, "held faces"));
     BRC_TRY(BRC_ALLOCATE(s->context, &a->arm, 3 * (int64_t)n, "held faces"));
+    BRC_TRY(BRC_ALLOCATE(s->context, &a->value, 3 * (int64_t)n, "held faces"));
     return BRC_ALLOCATE(s->context, &a->spring, n, "held faces");
 }
 
@@ -122,9 +123,9 @@ static brc_status find_places(brc_simulation *s, const brc_set *set, const brc_h
     return BRC_OK;
 }
 
-/* Entries of one load; velocity loads start from where the face is now. */
-static brc_status create_load(brc_simulation *s, const brc_stage *stage, const brc_load *load, const brc_set *set,
-                              const brc_held_faces *held, brc_held_load *entry)
+/* Entries of one load, whose faces begin where they stand; velocity loads start from there. value: [n_faces][3] */
+static brc_status create_load(brc_simulation *s, const brc_load *load, const brc_set *set, const brc_held_faces *held,
+                              double *value, brc_held_load *entry)
 {
     const bool moves = load->kind == BRC_LOAD_FACE_VELOCITY;
     const int64_t count = set->n_members;
@@ -135,14 +136,16 @@ static brc_status create_load(brc_simulation *s, const brc_stage *stage, const b
     BRC_TRY(BRC_ALLOCATE(s->context, &face, count, "held load"));
     BRC_LOCAL(s->context, count, int32_t, flag, "held load");
     BRC_LOCAL(s->context, 3 * count, double, direction, "held load");
-    if (moves || stage->solver == BRC_SOLVER_DYNAMIC) BRC_TRY(find_places(s, set, held, now));
+    BRC_TRY(find_places(s, set, held, now));
     for (int64_t m = 0; m < count; ++m) {
         face[m] = held->index_of_free_face[set->members[m]];
         flag[m] = brc_load_components(load);
         brc_load_direction(load, s->domain->free_centroid + 3 * (int64_t)set->members[m], direction + 3 * m);
         if (!moves) entry->jump = fmax(entry->jump, brc_load_jump(load, direction + 3 * m, now + 3 * m));
-        for (int c = 0; c < 3 && !moves; ++c)
-            now[3 * m + c] = 0;
+        for (int c = 0; c < 3; ++c) {
+            if (load->component[c]) value[3 * (int64_t)face[m] + c] = now[3 * m + c];
+            if (!moves) now[3 * m + c] = 0;
+        }
     }
     BRC_TRY(brc_load_fields_create(s, &brc_held_load_fields, count, entry));
     BRC_TRY(brc_upload_int(entry->face, face, count));
@@ -151,7 +154,7 @@ static brc_status create_load(brc_simulation *s, const brc_stage *stage, const b
     return brc_upload_state(s, entry->direction, direction, 3 * count);
 }
 
-static brc_status create_loads(brc_simulation *s, const brc_stage *stage, brc_held_faces *held)
+static brc_status create_loads(brc_simulation *s, const brc_stage *stage, brc_held_faces *held, double *value)
 {
     brc_status status = BRC_OK;
     BRC_TRY(BRC_ALLOCATE(s->context, &held->loads, stage->n_loads, "held loads"));
@@ -161,7 +164,7 @@ static brc_status create_loads(brc_simulation *s, const brc_stage *stage, brc_he
         if (!set) return status;
         brc_held_load *entry = held->loads + held->n_loads++;
         entry->load = l;
-        BRC_TRY(create_load(s, stage, stage->loads + l, set, held, entry));
+        BRC_TRY(create_load(s, stage->loads + l, set, held, value, entry));
     }
     return BRC_OK;
 }
@@ -178,6 +181,7 @@ static brc_status upload(brc_simulation *s, const held_arrays *a, brc_held_faces
     BRC_TRY(brc_upload_coeff(s, held->face_area, a->area, 3 * n));
     BRC_TRY(brc_upload_coeff(s, held->arm, a->arm, 3 * n));
     BRC_TRY(brc_upload_coeff(s, held->spring, a->spring, n));
+    BRC_TRY(brc_upload_state(s, held->value, a->value, 3 * n));
     return brc_load_upload_components(s, held->held, held->component_of_face, (int32_t)n);
 }
 
@@ -203,7 +207,7 @@ brc_status brc_held_faces_create(brc_simulation *s, const brc_stage *stage, brc_
     BRC_TRY_OR(cleanup, BRC_ALLOCATE(s->context, &held->component_of_face, held->n_faces, "held faces"));
     BRC_TRY_OR(cleanup, allocate(s, held->n_faces, &a));
     group(s, held, &a);
-    BRC_TRY_OR(cleanup, create_loads(s, stage, held));
+    BRC_TRY_OR(cleanup, create_loads(s, stage, held, a.value));
     BRC_TRY_OR(cleanup, upload(s, &a, held));
 cleanup:
     brc_memory_free(a.items);
@@ -215,5 +219,6 @@ cleanup:
     brc_memory_free(a.area);
     brc_memory_free(a.arm);
     brc_memory_free(a.spring);
+    brc_memory_free(a.value);
     return status;
 }
